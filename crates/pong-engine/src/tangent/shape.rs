@@ -48,36 +48,47 @@ impl Shape {
         Self::Round(matrix / reach - pole * pole.transpose() / reach.powi(3))
     }
 
-    /// Shape of the rim of a disc, or of the mouth of a hole, at a point of the circle. `outward` is the outward
-    /// normal of the contact.
-    fn of_rim(center: &Vec3, axis: &Vec3, place: &Vec3, outward: &Vec3) -> Option<Self> {
+    /// Shape of a circle, the rim of a disc or the mouth of a hole, at one of its points. `None` if the contact is
+    /// not on the circle, or its normal not perpendicular to it.
+    fn of_rim(&Circle { center, axis, radius }: &Circle<'_>, place: &Vec3, outward: &Vec3) -> Option<Self> {
         let arm = place - center;
         let arm = arm - axis * axis.dot(&arm);
-        let radius = arm.norm();
-        if radius < AT_END * arm.amax().max(place.amax()).max(center.amax()) {
+        let rounding = rounding(&[place, center]);
+        if radius <= rounding {
             return Some(Self::CORNER);
         }
         let away = arm / radius;
-        let lean = outward.dot(&away);
+        let (along, lean) = (axis.cross(&away), outward.dot(&away));
         // Where the normal is along the axis, the whole rim touches.
-        if lean.abs() < 1e-9 {
-            return None;
-        }
-        let along = axis.cross(&away);
-        Some(Self::Round(along * along.transpose() * (radius / lean)))
+        let is_on = (arm.norm() - radius).abs() <= rounding && along.dot(outward).abs() <= ROUNDING;
+        (is_on && lean.abs() > ROUNDING).then(|| Self::Round(along * along.transpose() * (radius / lean)))
     }
 
-    /// Shape of the side of a round solid, or of the wall of a hole, at a point of its surface.
+    /// Shape of the side of a round solid, or of the wall of a hole, at a point of its surface. `None` if the normal
+    /// does not pass through the axis.
     fn of_side(frustum: &Frustum, place: &Vec3, outward: &Vec3) -> Option<Self> {
         let arm = place - frustum.ends[0];
-        let arm = arm - frustum.axis * frustum.axis.dot(&arm);
         let lean = outward - frustum.axis * frustum.axis.dot(outward);
-        let square = lean.norm_squared();
-        // Distance of the point from the axis along the normal.
-        (square > 1e-18).then(|| {
-            let away = outward.cross(&frustum.axis).normalize();
-            Self::Straight { along: away.cross(outward).normalize(), radius: arm.dot(&lean) / square }
+        let (square, across) = (lean.norm_squared(), outward.cross(&frustum.axis));
+        let is_through = across.dot(&arm).abs() <= rounding(&[place, &frustum.ends[0]]);
+        // The radius is the distance of the point from the axis along the normal.
+        (square > ROUNDING && is_through).then(|| {
+            let along = across.normalize().cross(outward);
+            Self::Straight { along, radius: arm.dot(&lean) / square }
         })
+    }
+}
+
+/// A circle in space.
+struct Circle<'a> {
+    center: &'a Vec3,
+    axis: &'a Vec3,
+    radius: f64,
+}
+
+impl<'a> Circle<'a> {
+    fn at_end(frustum: &'a Frustum, end: usize) -> Self {
+        Self { center: &frustum.ends[end], axis: &frustum.axis, radius: frustum.radii[end] }
     }
 }
 
@@ -93,8 +104,13 @@ pub(super) struct AtContact<'a> {
 /// Fraction of an axis from its end within which a point counts as the end.
 const AT_END: f64 = 1e-9;
 
-/// Rounding of the product of two unit vectors.
-const NORMAL_ROUNDING: f64 = 1e-9;
+/// Rounding of the product of two unit vectors, and of a point relative to its coordinates.
+const ROUNDING: f64 = 1e-9;
+
+/// Rounding of a distance between points, m.
+fn rounding(points: &[&Vec3]) -> f64 {
+    points.iter().map(|point| point.amax()).fold(0.0, f64::max) * ROUNDING
+}
 
 impl AtContact<'_> {
     /// Shape of the primitive as A. `on_edge` is true if an edge of B pushes. `None` for kinds without a known
@@ -107,8 +123,8 @@ impl AtContact<'_> {
                 let is_pole = self.is_at(&ellipsoid.support(&self.outward));
                 is_pole.then(|| Shape::of_ellipsoid(ellipsoid, &self.outward))
             }
-            PrimitiveRef::LineSegment(segment) => Some(self.of_axis(&segment.ends, 0.0)),
-            PrimitiveRef::Capsule(capsule) => Some(self.of_axis(&capsule.ends, capsule.radius)),
+            PrimitiveRef::LineSegment(segment) => self.of_axis(&segment.ends, 0.0),
+            PrimitiveRef::Capsule(capsule) => self.of_axis(&capsule.ends, capsule.radius),
             PrimitiveRef::Cylinder(frustum) | PrimitiveRef::Cone(frustum) => {
                 match on_edge && is_between(&self.place, &frustum.ends) {
                     true => Shape::of_side(frustum, &self.place, &self.outward),
@@ -120,16 +136,18 @@ impl AtContact<'_> {
     }
 
     /// Shape of a segment, or of a capsule, whose axis has these ends.
-    fn of_axis(&self, ends: &[Vec3; 2], radius: f64) -> Shape {
-        match is_between(&(self.place - self.outward * radius), ends) {
-            true => Shape::Straight { along: (ends[1] - ends[0]).normalize(), radius },
-            false => Shape::ball(radius, &self.outward),
+    fn of_axis(&self, ends: &[Vec3; 2], radius: f64) -> Option<Shape> {
+        if !is_between(&(self.place - self.outward * radius), ends) {
+            return Some(Shape::ball(radius, &self.outward));
         }
+        let along = (ends[1] - ends[0]).normalize();
+        let across = along.cross(&self.outward).dot(&(self.place - ends[0]));
+        (across.abs() <= rounding(&[&self.place, &ends[0]])).then_some(Shape::Straight { along, radius })
     }
 
     fn of_end_disc(&self, frustum: &Frustum) -> Option<Shape> {
         let end = usize::from(fraction(&self.place, &frustum.ends) > 0.5);
-        Shape::of_rim(&frustum.ends[end], &frustum.axis, &self.place, &self.outward)
+        Shape::of_rim(&Circle::at_end(frustum, end), &self.place, &self.outward)
     }
 
     /// Shape of the primitive as B, whose `feature` pushes.
@@ -138,7 +156,7 @@ impl AtContact<'_> {
             PrimitiveRef::Plane(_) => Some(Shape::Flat),
             PrimitiveRef::Sphere(sphere) => Some(Shape::ball(sphere.radius, &self.outward)),
             PrimitiveRef::Ellipsoid(ellipsoid) => Some(Shape::of_ellipsoid(ellipsoid, &self.outward)),
-            PrimitiveRef::Capsule(capsule) => Some(self.of_axis(&capsule.ends, capsule.radius)),
+            PrimitiveRef::Capsule(capsule) => self.of_axis(&capsule.ends, capsule.radius),
             PrimitiveRef::Cylinder(frustum) | PrimitiveRef::Cone(frustum) => self.of_frustum(frustum),
             PrimitiveRef::Bore(bore) => self.of_bore(bore, feature),
             PrimitiveRef::Triangle(set, _) => self.of_triangles(set, feature),
@@ -153,7 +171,8 @@ impl AtContact<'_> {
         if along.abs() > 1.0 - 1e-14 {
             return Some(Shape::Flat);
         }
-        match (along - frustum.wall[0]).abs() < NORMAL_ROUNDING {
+        let is_on_wall = (along - frustum.wall[0]).abs() < ROUNDING;
+        match is_on_wall && is_between(&self.place, &frustum.ends) {
             true => Shape::of_side(frustum, &self.place, &self.outward),
             false => self.of_end_disc(frustum),
         }
@@ -166,7 +185,7 @@ impl AtContact<'_> {
         }
         match feature.kind() {
             FeatureKind::Face => Shape::of_side(&bore.hole, &self.place, &self.outward),
-            _ => Shape::of_rim(&bore.hole.ends[feature.index()], &bore.hole.axis, &self.place, &self.outward),
+            _ => Shape::of_rim(&Circle::at_end(&bore.hole, feature.index()), &self.place, &self.outward),
         }
     }
 
@@ -197,14 +216,14 @@ impl AtContact<'_> {
         }
         let along = (ends[1] - ends[0]).normalize();
         let arm = self.place - ends[0];
-        let is_across = self.outward.dot(&along).abs() < NORMAL_ROUNDING;
+        let is_across = self.outward.dot(&along).abs() < ROUNDING;
         (is_across && self.is_at(&(ends[0] + along * along.dot(&arm))))
             .then_some(Shape::Straight { along, radius: 0.0 })
     }
 
     /// True if the contact is at a point, to rounding.
     fn is_at(&self, point: &Vec3) -> bool {
-        (self.place - point).amax() <= NORMAL_ROUNDING * self.place.amax().max(point.amax())
+        (self.place - point).amax() <= rounding(&[&self.place, point])
     }
 }
 
