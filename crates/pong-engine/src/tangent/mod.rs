@@ -4,7 +4,7 @@
 //! | file | step |
 //! |---|---|
 //! | `shape.rs` | radii of curvature of both surfaces at a contact |
-//! | `moves.rs` | derivatives of depth, normal and contact point with the relative pose |
+//! | `moves.rs`, `ray.rs` | derivatives of depth, normal and contact point with the relative pose |
 //! | `sharing.rs` | derivatives of the weights of contacts that share a spring |
 //! | `friction.rs`, `contact.rs` | derivatives of the force of one contact |
 //! | `blocks.rs` | sum over the contacts of two groups; common axes |
@@ -13,6 +13,7 @@ mod blocks;
 mod contact;
 mod friction;
 mod moves;
+mod ray;
 mod shape;
 mod sharing;
 
@@ -21,6 +22,7 @@ pub use blocks::{PairTangent, TangentMatrix};
 use crate::frame::input::{EvaluationInput, PairContext, WorkerInput};
 use crate::frame::forces::contact_ref::ContactRef;
 use crate::frame::input::relative::Motions;
+use crate::frame::narrow_phase::candidate::ContactCandidate;
 use crate::frame::{FrameContact, FrameResults};
 use crate::law::{FrictionProps, NormalProps, NormalTangent};
 use crate::seal::Direction;
@@ -28,8 +30,10 @@ use crate::state::ContactRole;
 use blocks::DirectionSlopes;
 use contact::Moving;
 use moves::{Moves, Touch};
+use ray::RayHit;
 use nalgebra::RowVector6;
-use pong_geometry::primitive::PrimitiveKind;
+use pong_geometry::extension::PrimitiveRef;
+use pong_geometry::primitive::{PrimitiveKind, Ray};
 use shape::{AtContact, Shape};
 
 /// Stiffness and damping that act in one contact of the last frame, weights included.
@@ -188,13 +192,22 @@ impl<'a> Frame<'a> {
         let x_ba = &context.motion.x_ba;
         let x_ab = x_ba.inverse();
         let element_a = context.body_a.element(kind_a, found.element_a);
-        if kind_a == PrimitiveKind::Ray {
-            return None;
+        if let PrimitiveRef::Ray(ray) = element_a {
+            return self.moves_of_ray(&ray.carried(x_ba), found);
         }
         let on_edge = !found.feature.is_face();
         let of_a =
             AtContact { element: element_a, place: x_ab.point(&found.deepest_b), outward: -x_ab.vector(&normal) };
         let shape_a: Shape = of_a.shape_of_a(on_edge)?.rotated(&x_ba.rotation);
         touch.moves(&shape_a, &of_b.shape_of_b(found.feature)?)
+    }
+
+    fn moves_of_ray(&self, ray: &Ray, found: &ContactCandidate) -> Option<Moves> {
+        let element = self.context.body_b.element(found.kind_b, found.element_b);
+        let distance = found.ray_distance;
+        let place = ray.origin + ray.direction * distance;
+        let normal = ray::normal_at(&element, found.feature, &place)?;
+        let of_b = AtContact { element, place, outward: normal };
+        RayHit { ray: *ray, distance, normal }.moves(&of_b.shape_of_b(found.feature)?)
     }
 }
