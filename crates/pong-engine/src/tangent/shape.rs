@@ -202,8 +202,11 @@ impl AtContact<'_> {
         match feature.kind() {
             FeatureKind::Face => Some(Shape::Flat),
             FeatureKind::Edge => {
-                let ends = polyhedron.edges[feature.index()].vertices;
-                self.of_edge(ends.map(|vertex| polyhedron.vertices[vertex as usize].position))
+                let edge = &polyhedron.edges[feature.index()];
+                // A normal of one of its two faces may be that of the face.
+                let is_face = |face: u32| (polyhedron.faces[face as usize].normal - self.outward).amax() < ROUNDING;
+                let ends = edge.vertices.map(|vertex| polyhedron.vertices[vertex as usize].position);
+                if edge.faces.into_iter().any(is_face) { None } else { self.of_edge(ends) }
             }
             FeatureKind::Vertex => Some(Shape::CORNER),
         }

@@ -44,7 +44,7 @@ pub fn of_differences(base: &mut Base, _: &mut Random) -> Verdict {
                     };
                     compared = true;
                     // Entries that are zero up to rounding.
-                    let least = 1e-9 * if is_twist { scene.damping() } else { scene.stiffness() };
+                    let least = 1e-9 * if is_twist { scene.damping() } else { scene.stiffness() } + 1e-15 * scene.stiffness();
                     if let Some((relative, says)) = compare(&exact, &differences, (what, least)) {
                         return Verdict::differs(frame, relative, says);
                     }
@@ -93,7 +93,7 @@ fn by_differences(
     }
     let least = answer.contacts.iter().map(|touch| touch.depth).fold(f64::INFINITY, f64::min);
     let width = match is_twist {
-        false => (1e-3 * least).clamp(1e-7 * scene.size, 1e-4 * scene.size),
+        false => (1e-5 * least).clamp(1e-9 * scene.size, 1e-4 * scene.size),
         true => (1e-4 * fastest(states, scene.size)).max(1e-6 * scene.size),
     };
     let here = rows(answer, scene.size);
