@@ -196,6 +196,10 @@ impl<'a> Frame<'a> {
             return self.moves_of_ray(&ray.carried(x_ba), found);
         }
         let on_edge = !found.feature.is_face();
+        // A segment that leaves a solid through a face may push along another line than that of the edge.
+        if on_edge && (kind_a, found.kind_b) == (PrimitiveKind::LineSegment, PrimitiveKind::Polyhedron) {
+            return None;
+        }
         let of_a =
             AtContact { element: element_a, place: x_ab.point(&found.deepest_b), outward: -x_ab.vector(&normal) };
         let shape_a: Shape = of_a.shape_of_a(on_edge)?.rotated(&x_ba.rotation);

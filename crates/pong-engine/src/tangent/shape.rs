@@ -168,7 +168,7 @@ impl AtContact<'_> {
     /// End, side or rim of a round solid, by the direction of the normal.
     fn of_frustum(&self, frustum: &Frustum) -> Option<Shape> {
         let along = self.outward.dot(&frustum.axis);
-        if along.abs() > 1.0 - 1e-14 {
+        if is_along(along) && frustum.radii[usize::from(along > 0.0)] > 0.0 {
             return Some(Shape::Flat);
         }
         let is_on_wall = (along - frustum.wall[0]).abs() < ROUNDING;
@@ -180,7 +180,7 @@ impl AtContact<'_> {
 
     /// Features of a bore: its wall, and as edges its two mouths.
     fn of_bore(&self, bore: &Bore, feature: Feature) -> Option<Shape> {
-        if self.outward.dot(&bore.hole.axis).abs() > 1.0 - 1e-14 {
+        if is_along(self.outward.dot(&bore.hole.axis)) {
             return Some(Shape::Flat);
         }
         match feature.kind() {
@@ -200,7 +200,10 @@ impl AtContact<'_> {
 
     fn of_polyhedron(&self, polyhedron: &Polyhedron, feature: Feature) -> Option<Shape> {
         match feature.kind() {
-            FeatureKind::Face => Some(Shape::Flat),
+            FeatureKind::Face => {
+                let is_normal = (polyhedron.faces[feature.index()].normal - self.outward).amax() < ROUNDING;
+                is_normal.then_some(Shape::Flat)
+            }
             FeatureKind::Edge => {
                 let edge = &polyhedron.edges[feature.index()];
                 // A normal of one of its two faces may be that of the face.
@@ -228,6 +231,11 @@ impl AtContact<'_> {
     fn is_at(&self, point: &Vec3) -> bool {
         (self.place - point).amax() <= rounding(&[&self.place, point])
     }
+}
+
+/// True for the product of two parallel unit vectors.
+fn is_along(cosine: f64) -> bool {
+    cosine.abs() > 1.0 - 1e-14
 }
 
 /// Position of a point along an axis: 0 at its first end, 1 at its second.

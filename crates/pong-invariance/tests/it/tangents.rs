@@ -8,7 +8,7 @@ fn every_family() {
     let scenes = std::env::var("SCENES").map_or(200, |s| s.parse().unwrap());
     let only = std::env::var("FAMILY").ok();
     for family in make::families().filter(|f| only.as_deref().is_none_or(|o| o == *f)) {
-        let order = Order { seed: 1, first: std::env::var("FIRST").map_or(0, |s| s.parse().unwrap()), scenes, only: vec!["tangent".into()], family: Some(family.into()), threads: 1, kept: 1 };
+        let order = Order { seed: 1, first: std::env::var("FIRST").map_or(0, |s| s.parse().unwrap()), scenes, only: vec!["tangent".into()], family: Some(family.into()), threads: 1, kept: 5 };
         let survey = Survey::run(&order, &|_| ());
         let t = survey.tallies.get("tangent").cloned().unwrap_or_default();
         println!("{family:<18} compared {:>6} differ {:>6} worst {:.1e}", t.compared, t.differ, t.worst);
