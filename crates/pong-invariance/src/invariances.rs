@@ -125,7 +125,7 @@ pub const INVARIANCES: &[Invariance] = &[
     property(
         "tangent",
         "derivatives of the wrenches are those of central differences, to 1e-6",
-        1,
+        16,
         None,
         tangent::of_differences,
     ),

@@ -2,9 +2,9 @@
 
 use super::contact::{ContactSlopes, VARIABLES};
 use crate::frame::FrameContact;
+use crate::frame::input::PairContext;
 use crate::frame::input::relative::Motions;
-use crate::frame::input::{EvaluationInput, PairContext};
-use crate::ids::InterfaceId;
+use crate::ids::{InterfaceId, WorldStamp};
 use nalgebra::{SMatrix, SVector};
 use pong_geometry::{Mat3, Vec3, Wrench};
 
@@ -70,11 +70,11 @@ impl DirectionSlopes {
 }
 
 impl PairTangent {
-    pub(super) fn new(given: &EvaluationInput<'_>, group_pair: u32) -> Self {
-        let bodies = given.sealed.group_pairs[group_pair as usize].sides();
+    /// Zero tangent of two movable groups.
+    pub(crate) fn of_groups(stamp: WorldStamp, bodies: [usize; 2]) -> Self {
         let zero = [[TangentMatrix::zeros(); 2]; 2];
         Self {
-            groups: bodies.map(|body| InterfaceId::new(given.scene.stamp, body)),
+            groups: bodies.map(|body| InterfaceId::new(stamp, body)),
             stiffness: zero,
             damping: zero,
             touches: false,

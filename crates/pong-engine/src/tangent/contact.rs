@@ -4,7 +4,7 @@ use super::friction::{FrictionSlopes, Rubbing};
 use super::moves::{Moves, displacement, plane_axes};
 use crate::frame::FrameContact;
 use crate::frame::input::PairContext;
-use crate::law::{NormalTangent, normal_tangent};
+use crate::law::normal_tangent;
 use crate::state::ContactRecord;
 use nalgebra::{Matrix3x6, RowVector6, SMatrix};
 use pong_geometry::pose::carry_by_smallest_rotation;
@@ -26,7 +26,7 @@ pub(super) struct Moving<'a> {
     pub moves: Moves,
     /// Derivative of the weight with respect to (u, φ).
     pub weight: RowVector6<f64>,
-    /// Share of the tangential spring, and its derivative.
+    /// Share of the tangential spring, no unit, and its derivative with respect to (u, φ).
     pub share: f64,
     pub share_slope: RowVector6<f64>,
 }
@@ -35,7 +35,6 @@ pub(super) struct Moving<'a> {
 pub(super) struct ContactSlopes {
     pub force: Rows3,
     pub point: Matrix3x6<f64>,
-    pub normal: NormalTangent,
 }
 
 /// Columns of (u, φ) in the columns of all variables.
@@ -67,7 +66,7 @@ impl Moving<'_> {
             let slip_velocity = of_velocity + padded(&moves.normal) * contact.rate;
             force += self.friction_slopes(context, &point, (&pressed, &slip_velocity))?;
         }
-        Some(ContactSlopes { force, point, normal: tangent })
+        Some(ContactSlopes { force, point })
     }
 
     /// Derivatives of the relative velocity at the contact point.
@@ -89,10 +88,10 @@ impl Moving<'_> {
         let (slip, slip_slopes) = self.slip(context, point);
         let (carried, carried_slopes) = self.carried(&normal, &moves.normal);
         let rubbing = Rubbing {
-            normal,
-            carried,
-            slip,
-            slip_velocity: contact.slip_velocity_b,
+            normal_b: normal,
+            carried_b: carried,
+            slip_b: slip,
+            slip_velocity_b: contact.slip_velocity_b,
             pressed: contact.normal_force,
             share: self.share,
             stuck: self.record.is_none_or(|record| record.sticks),

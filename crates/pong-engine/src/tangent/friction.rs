@@ -16,13 +16,13 @@ const VELOCITY: usize = 4;
 const LOAD: usize = 6;
 const SHARE: usize = 7;
 
-/// What the friction of a contact depends on. Vectors are in B's frame, in the contact plane.
+/// Input of the friction of a contact. Vectors are in B's frame, in the contact plane.
 pub(super) struct Rubbing {
-    pub normal: Vec3,
+    pub normal_b: Vec3,
     /// Bristle of the last commit, carried into the contact plane, m.
-    pub carried: Vec3,
-    pub slip: Vec3,
-    pub slip_velocity: Vec3,
+    pub carried_b: Vec3,
+    pub slip_b: Vec3,
+    pub slip_velocity_b: Vec3,
     /// Normal force, N.
     pub pressed: f64,
     /// Share of the tangential spring.
@@ -62,9 +62,9 @@ impl Rubbing {
             kinetic_limit: of_load(kinetic),
             static_limit: of_load(fixed),
             normal: Vectors::splat(Derivatives, &Vec3::z()),
-            carried: self.in_plane(&self.carried, CARRIED),
-            slip: self.in_plane(&self.slip, SLIP),
-            slip_velocity: self.in_plane(&self.slip_velocity, VELOCITY),
+            carried: self.in_plane(&self.carried_b, CARRIED),
+            slip: self.in_plane(&self.slip_b, SLIP),
+            slip_velocity: self.in_plane(&self.slip_velocity_b, VELOCITY),
             stuck: if self.stuck { LaneBits::MAX } else { 0 },
         }
         .evaluate(Derivatives);
@@ -73,7 +73,7 @@ impl Rubbing {
 
     /// F = −μ·F_n·v/max(|v|, v_ε).
     fn of_coulomb(&self, mu: f64, slip_speed: f64) -> FrictionSlopes {
-        let velocity = self.in_plane(&self.slip_velocity, VELOCITY);
+        let velocity = self.in_plane(&self.slip_velocity_b, VELOCITY);
         let speed = velocity.norm().larger(Number::splat(Derivatives, slip_speed));
         let force = -(velocity * number(mu * self.pressed, LOAD, mu).over(speed));
         of_numbers([force.x, force.y])
@@ -81,7 +81,7 @@ impl Rubbing {
 
     /// A vector of the contact plane in the axes (e, f, n), whose two components are variables.
     fn in_plane(&self, vector: &Vec3, first: usize) -> Vectors<Level> {
-        let axes = plane_axes(&self.normal);
+        let axes = plane_axes(&self.normal_b);
         let part = |k: usize| number(axes[k].dot(vector), first + k, 1.0);
         Vectors { x: part(0), y: part(1), z: Number::splat(Derivatives, 0.0) }
     }

@@ -1,5 +1,5 @@
 //! Tangent of the last frame: derivatives of the wrenches of every two movable groups that touch with respect to
-//! their poses and twists (docs/theory.md, 10). Computed on request; a frame pays nothing for it.
+//! their poses and twists (docs/theory.md, 7). Computed on request; a frame pays nothing for it.
 //!
 //! | file | step |
 //! |---|---|
@@ -19,34 +19,24 @@ mod sharing;
 
 pub use blocks::{PairTangent, TangentMatrix};
 
-use crate::frame::input::{EvaluationInput, PairContext, WorkerInput};
 use crate::frame::forces::contact_ref::ContactRef;
 use crate::frame::input::relative::Motions;
+use crate::frame::input::{EvaluationInput, PairContext, WorkerInput};
 use crate::frame::narrow_phase::candidate::ContactCandidate;
 use crate::frame::{FrameContact, FrameResults};
-use crate::law::{FrictionProps, NormalProps, NormalTangent};
+use crate::law::{FrictionProps, NormalProps};
 use crate::seal::Direction;
 use crate::state::ContactRole;
 use blocks::DirectionSlopes;
 use contact::Moving;
 use moves::{Moves, Touch};
-use ray::RayHit;
 use nalgebra::RowVector6;
 use pong_geometry::extension::PrimitiveRef;
 use pong_geometry::primitive::{PrimitiveKind, Ray};
+use ray::RayHit;
 use shape::{AtContact, Shape};
 
-/// Stiffness and damping that act in one contact of the last frame, weights included.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ContactTangent {
-    /// Normal stiffness ∂F/∂δ, N/m, and damping ∂F/∂δ', N·s/m; zero where the force is cut at zero.
-    pub normal: NormalTangent,
-    /// Stiffness, N/m, and damping, N·s/m, of the bristle while it sticks; zero while it slips, and for friction
-    /// without a bristle.
-    pub tangential: NormalTangent,
-}
-
-/// Why a contact has no tangent.
+/// Reason why a contact has no tangent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Missing {
     /// A law of the host's.
@@ -79,7 +69,8 @@ pub(crate) fn of_frame(
     let mut tangents = Vec::new();
     let pair_of = |reference: &ContactRef| reference.direction().group_pair;
     for refs in results.contacts.order.chunk_by(|a, b| pair_of(a) == pair_of(b)) {
-        let mut tangent = PairTangent::new(given, pair_of(&refs[0]));
+        let bodies = given.sealed.group_pairs[pair_of(&refs[0]) as usize].sides();
+        let mut tangent = PairTangent::of_groups(given.scene.stamp, bodies);
         for refs in refs.chunk_by(|a, b| a.direction() == b.direction()) {
             let direction = refs[0].direction();
             let motion = motions.known(input, direction);
@@ -128,8 +119,7 @@ impl<'a> Frame<'a> {
             }
             sharing::share_bristles(&mut contacts);
             for moving in &contacts {
-                let slopes =
-                    moving.slopes(self.context).ok_or_else(|| unknown(moving, Missing::HostLaw))?;
+                let slopes = moving.slopes(self.context).ok_or_else(|| unknown(moving, Missing::HostLaw))?;
                 sum.add(&slopes, moving.contact);
             }
         }
@@ -178,16 +168,12 @@ impl<'a> Frame<'a> {
     fn moves(&self, contact: &FrameContact) -> Option<Moves> {
         let (context, found) = (self.context, &contact.found);
         let normal = found.normal_b;
-        let touch = Touch {
+        let touch = Touch { normal_b: normal, depth: found.depth, deepest_b: found.deepest_b };
+        let of_b = AtContact::new(
+            context.body_b.element(found.kind_b, found.element_b),
+            found.deepest_b + normal * found.depth,
             normal,
-            depth: found.depth,
-            deepest: found.deepest_b,
-        };
-        let of_b = AtContact {
-            element: context.body_b.element(found.kind_b, found.element_b),
-            place: found.deepest_b + normal * found.depth,
-            outward: normal,
-        };
+        );
         let kind_a = self.kind_a(contact);
         let x_ba = &context.motion.x_ba;
         let x_ab = x_ba.inverse();
@@ -200,8 +186,7 @@ impl<'a> Frame<'a> {
         if on_edge && (kind_a, found.kind_b) == (PrimitiveKind::LineSegment, PrimitiveKind::Polyhedron) {
             return None;
         }
-        let of_a =
-            AtContact { element: element_a, place: x_ab.point(&found.deepest_b), outward: -x_ab.vector(&normal) };
+        let of_a = AtContact::new(element_a, x_ab.point(&found.deepest_b), -x_ab.vector(&normal));
         let shape_a: Shape = of_a.shape_of_a(on_edge)?.rotated(&x_ba.rotation);
         touch.moves(&shape_a, &of_b.shape_of_b(found.feature)?)
     }
@@ -211,7 +196,7 @@ impl<'a> Frame<'a> {
         let distance = found.ray_distance;
         let place = ray.origin + ray.direction * distance;
         let normal = ray::normal_at(&element, found.feature, &place)?;
-        let of_b = AtContact { element, place, outward: normal };
-        RayHit { ray: *ray, distance, normal }.moves(&of_b.shape_of_b(found.feature)?)
+        let of_b = AtContact::new(element, place, normal);
+        RayHit { ray: *ray, distance, normal_b: normal }.moves(&of_b.shape_of_b(found.feature)?)
     }
 }

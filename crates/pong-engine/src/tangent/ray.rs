@@ -16,7 +16,7 @@ pub(super) struct RayHit {
     /// Distance of the hit from the origin, m.
     pub distance: f64,
     /// Normal of the surface at the hit.
-    pub normal: Vec3,
+    pub normal_b: Vec3,
 }
 
 impl RayHit {
@@ -26,7 +26,7 @@ impl RayHit {
 
     /// Moves of the contact, given the local shape of the surface.
     pub fn moves(&self, shape: &Shape) -> Option<Moves> {
-        let Self { ray, distance, normal } = self;
+        let Self { ray, distance, normal_b: normal } = self;
         let (direction, place) = (ray.direction, self.place());
         let moved = displacement(&place);
         let closing = direction.dot(normal);

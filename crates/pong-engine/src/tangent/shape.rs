@@ -25,7 +25,7 @@ impl Shape {
     /// Corner of no extent.
     pub const CORNER: Self = Self::Round(Mat3::new(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0));
 
-    /// The same shape in a frame that is turned by a rotation matrix.
+    /// Shape in a frame that is turned by a rotation matrix.
     pub fn rotated(&self, rotation: &Mat3) -> Self {
         match self {
             Self::Round(radii) => Self::Round(rotation * radii * rotation.transpose()),
@@ -45,7 +45,7 @@ impl Shape {
         let matrix = ellipsoid.axes * Mat3::from_diagonal(&squares) * ellipsoid.axes.transpose();
         let pole = matrix * outward;
         let reach = outward.dot(&pole).sqrt();
-        Self::Round(matrix / reach - pole * pole.transpose() / reach.powi(3))
+        Self::Round(matrix / reach - pole * pole.transpose() / (reach * reach * reach))
     }
 
     /// Shape of a circle, the rim of a disc or the mouth of a hole, at one of its points. `None` if the contact is
@@ -94,11 +94,11 @@ impl<'a> Circle<'a> {
 
 /// A primitive at a contact, in the frame in which the contact is given.
 pub(super) struct AtContact<'a> {
-    pub element: PrimitiveRef<'a>,
+    element: PrimitiveRef<'a>,
     /// Contact point on the surface of the primitive, m.
-    pub place: Vec3,
+    place: Vec3,
     /// Outward unit normal of the primitive.
-    pub outward: Vec3,
+    outward: Vec3,
 }
 
 /// Fraction of an axis from its end within which a point counts as the end.
@@ -112,7 +112,13 @@ fn rounding(points: &[&Vec3]) -> f64 {
     points.iter().map(|point| point.amax()).fold(0.0, f64::max) * ROUNDING
 }
 
-impl AtContact<'_> {
+impl<'a> AtContact<'a> {
+    /// A primitive whose surface has the contact point `place` and there the outward unit normal `outward`, all in one
+    /// frame.
+    pub fn new(element: PrimitiveRef<'a>, place: Vec3, outward: Vec3) -> Self {
+        Self { element, place, outward }
+    }
+
     /// Shape of the primitive as A. `on_edge` is true if an edge of B pushes. `None` for kinds without a known
     /// shape, and where the shape is not unique.
     pub fn shape_of_a(&self, on_edge: bool) -> Option<Shape> {
@@ -193,7 +199,9 @@ impl AtContact<'_> {
         let index = feature.index();
         match feature.kind() {
             FeatureKind::Face => Some(Shape::Flat),
-            FeatureKind::Edge => self.of_edge(TriangleView::new(set, (index / 3) as u32).edge_ends(index % 3)),
+            FeatureKind::Edge => {
+                self.of_edge(TriangleView::new(set, (index / 3) as u32).edge_ends(index % 3))
+            }
             FeatureKind::Vertex => Some(Shape::CORNER),
         }
     }
@@ -207,7 +215,8 @@ impl AtContact<'_> {
             FeatureKind::Edge => {
                 let edge = &polyhedron.edges[feature.index()];
                 // A normal of one of its two faces may be that of the face.
-                let is_face = |face: u32| (polyhedron.faces[face as usize].normal - self.outward).amax() < ROUNDING;
+                let is_face =
+                    |face: u32| (polyhedron.faces[face as usize].normal - self.outward).amax() < ROUNDING;
                 let ends = edge.vertices.map(|vertex| polyhedron.vertices[vertex as usize].position);
                 if edge.faces.into_iter().any(is_face) { None } else { self.of_edge(ends) }
             }

@@ -95,7 +95,10 @@ fn weigh_shared(contacts: &mut [Moving<'_>], again: bool) -> Option<Slope> {
     if contacts.len() == 1 || !contacts[0].contact.found.shares {
         return Some(squared_depth(&contacts[0]));
     }
-    let normals = Matrix3xX::from_iterator(contacts.len(), contacts.iter().flat_map(|c| c.contact.found.normal_b.iter().copied()));
+    let normals = Matrix3xX::from_iterator(
+        contacts.len(),
+        contacts.iter().flat_map(|c| c.contact.found.normal_b.iter().copied()),
+    );
     let coupled = normals.tr_mul(&normals).iter().all(|cosine| *cosine >= -1e-14);
     let loads = match (coupled, again) {
         (true, _) => None,
@@ -121,7 +124,8 @@ fn weigh_shared(contacts: &mut [Moving<'_>], again: bool) -> Option<Slope> {
 fn of_coupled(contacts: &[Moving<'_>], normals: &Matrix3xX<f64>) -> Option<Vec<Slope>> {
     let matrix: Mat3 = normals * normals.transpose();
     let inverse = pseudo_inverse(&matrix);
-    let depths = nalgebra::DVector::from_iterator(contacts.len(), contacts.iter().map(|c| c.contact.found.depth));
+    let depths =
+        nalgebra::DVector::from_iterator(contacts.len(), contacts.iter().map(|c| c.contact.found.depth));
     let t: Vec3 = inverse * (normals * depths);
     let s: Vec3 = inverse * t;
     let loads = normals.tr_mul(&s);
@@ -133,8 +137,8 @@ fn of_coupled(contacts: &[Moving<'_>], normals: &Matrix3xX<f64>) -> Option<Vec<S
             (0..contacts.len()).map(|i| vectors(i) * numbers(i)).sum::<Vec3>()
         };
         let normal = |i: usize| normals.column(i).into_owned();
-        let of_t: Vec3 = inverse
-            * weighted(&|i| contacts[i].moves.depth[column] - turned[i].dot(&t), &normal);
+        let of_t: Vec3 =
+            inverse * weighted(&|i| contacts[i].moves.depth[column] - turned[i].dot(&t), &normal);
         let of_t = of_t + (Mat3::identity() - inverse * matrix) * weighted(&|i| loads[i], &|i| turned[i]);
         let of_matrix = weighted(&|i| loads[i], &|i| turned[i]) + weighted(&|i| turned[i].dot(&s), &normal);
         let of_s = inverse * (of_t - of_matrix);
@@ -163,8 +167,7 @@ fn pseudo_inverse(matrix: &Mat3) -> Mat3 {
 /// Loads λ of contacts of which some normals are more than 90° apart: Σ max(0, nᵢ·nⱼ)·λⱼ = δᵢ.
 fn of_uncoupled(contacts: &[Moving<'_>], normals: &Matrix3xX<f64>) -> Option<Vec<Slope>> {
     let count = contacts.len();
-    let loads: Vec<f64> =
-        contacts.iter().map(|c| c.contact.found.weight * c.contact.found.depth).collect();
+    let loads: Vec<f64> = contacts.iter().map(|c| c.contact.found.weight * c.contact.found.depth).collect();
     let cosines = normals.tr_mul(normals);
     let factors = DMatrix::from_fn(count, count, |i, j| cosines[(i, j)].max(0.0)).lu();
     let mut slopes: Vec<Slope> =
@@ -203,7 +206,9 @@ pub(super) fn share_bristles(contacts: &mut [Moving<'_>]) {
     for group in contacts.chunk_by_mut(|a, b| a.contact.found.key == b.contact.found.key) {
         let found: Vec<(&ContactCandidate, Slope)> = group
             .iter()
-            .map(|moving| (&moving.contact.found, Slope { value: moving.contact.found.weight, by: moving.weight }))
+            .map(|moving| {
+                (&moving.contact.found, Slope { value: moving.contact.found.weight, by: moving.weight })
+            })
             .collect();
         for (moving, (own, weight)) in group.iter_mut().zip(&found) {
             moving.share = bristle_share(own, found.iter().map(|(other, _)| *other));

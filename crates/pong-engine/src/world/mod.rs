@@ -9,7 +9,7 @@
 //! | `distance.rs` | distance of two movable groups |
 //! | `energy.rs` | energies of the last commit |
 //! | `contact_state.rs` | the contact state as a block of bytes |
-//! | `tangent.rs` | derivatives of the wrenches of the last frame |
+//! | `tangent.rs`, `differences.rs` | derivatives of the wrenches of the last frame |
 //! | `standing.rs` | poses that contradict velocities |
 //! | `workers.rs` | workers, and the times of a frame |
 //! | `clone.rs` | clones of a world |
@@ -19,6 +19,7 @@ mod changes;
 mod clone;
 mod contact_state;
 mod continuation;
+mod differences;
 mod distance;
 mod energy;
 mod frame;

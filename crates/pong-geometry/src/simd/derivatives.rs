@@ -13,7 +13,7 @@ use std::f64::consts::LN_2;
 /// A number and its derivatives.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dual<const N: usize> {
-    /// The number.
+    /// The number itself, in any unit.
     pub value: f64,
     /// Its derivatives with respect to `N` variables.
     pub slopes: [f64; N],
@@ -170,7 +170,10 @@ mod tests {
             let step = 1e-5 * x.abs().max(1e-3);
             let difference = (at(x + step, 0.0).value - at(x - step, 0.0).value) / (2.0 * step);
             let [slope] = at(x, 1.0).slopes;
-            assert!((slope - difference).abs() <= 1e-8 * (1.0 + difference.abs()), "{name} at {x}: {slope}, {difference}");
+            assert!(
+                (slope - difference).abs() <= 1e-8 * (1.0 + difference.abs()),
+                "{name} at {x}: {slope}, {difference}"
+            );
         }
     }
 

@@ -1,4 +1,4 @@
-//! Tangent of a frame (docs/theory.md, 10): against central differences of the wrenches.
+//! Tangent of a frame (docs/theory.md, 7): against central differences of the wrenches.
 
 use crate::base::Base;
 use crate::judge::Verdict;
@@ -39,12 +39,15 @@ pub fn of_differences(base: &mut Base, _: &mut Random) -> Verdict {
             Ok(tangents) => {
                 for (is_twist, what) in [(false, "stiffness"), (true, "damping")] {
                     let exact = table_of(&tangents, (is_twist, &base.stage), scene.size);
-                    let Some(differences) = by_differences(&mut base.stage, &scene, states, (is_twist, &answer)) else {
+                    let Some(differences) =
+                        by_differences(&mut base.stage, &scene, states, (is_twist, &answer))
+                    else {
                         continue;
                     };
                     compared = true;
                     // Entries that are zero up to rounding.
-                    let least = 1e-9 * if is_twist { scene.damping() } else { scene.stiffness() } + 1e-15 * scene.stiffness();
+                    let least = 1e-9 * if is_twist { scene.damping() } else { scene.stiffness() }
+                        + 1e-15 * scene.stiffness();
                     if let Some((relative, says)) = compare(&exact, &differences, (what, least)) {
                         return Verdict::differs(frame, relative, says);
                     }
@@ -167,9 +170,14 @@ fn rows(answer: &Answer, size: f64) -> [f64; 12] {
     })
 }
 
-fn compare(exact: &Table, [differences, errors]: &[Table; 2], (what, least): (&str, f64)) -> Option<(f64, String)> {
+fn compare(
+    exact: &Table,
+    [differences, errors]: &[Table; 2],
+    (what, least): (&str, f64),
+) -> Option<(f64, String)> {
     let entries = || (0..12).flat_map(|row| (0..COLUMNS).map(move |column| (row, column)));
-    let largest = entries().map(|(r, c)| exact[r][c].abs().max(differences[r][c].abs())).fold(least, f64::max);
+    let largest =
+        entries().map(|(r, c)| exact[r][c].abs().max(differences[r][c].abs())).fold(least, f64::max);
     let apart = |&(row, column): &(usize, usize)| {
         (exact[row][column] - differences[row][column]).abs() - errors[row][column]
     };

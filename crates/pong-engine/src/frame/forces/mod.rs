@@ -126,10 +126,7 @@ pub(crate) fn bristle_share<'f>(
     contact: &ContactCandidate,
     same_key: impl Iterator<Item = &'f ContactCandidate>,
 ) -> f64 {
-    let whole: f64 = same_key
-        .filter(|other| share_a_bristle(other, contact))
-        .map(|other| other.weight)
-        .sum();
+    let whole: f64 = same_key.filter(|other| share_a_bristle(other, contact)).map(|other| other.weight).sum();
     // If no other contact counts, `whole` is the weight itself and the share is exactly h. If the contact
     // does not push, its share is not used.
     let half = contact.half_or_whole();
