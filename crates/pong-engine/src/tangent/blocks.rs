@@ -21,6 +21,8 @@ pub type TangentMatrix = SMatrix<f64, 6, 6>;
 pub struct PairTangent {
     /// The two movable groups.
     pub groups: [InterfaceId; 2],
+    /// True if central differences gave the blocks.
+    pub by_differences: bool,
     /// −∂W/∂x, N/m, N/rad, N, N·m/rad.
     pub stiffness: [[TangentMatrix; 2]; 2],
     /// −∂W/∂v, N·s/m, N·s/rad, N·s, N·m·s/rad.
@@ -75,6 +77,7 @@ impl PairTangent {
         let zero = [[TangentMatrix::zeros(); 2]; 2];
         Self {
             groups: bodies.map(|body| InterfaceId::new(stamp, body)),
+            by_differences: false,
             stiffness: zero,
             damping: zero,
             touches: false,

@@ -59,30 +59,45 @@ pub(crate) struct Unknown {
     pub why: Missing,
 }
 
-/// Tangents of all pairs of groups that touch in a frame. `input` is that of the frame.
+/// Tangents of all pairs of groups that touch in a frame, each with the index of the pair. `input` is that of the
+/// frame.
 pub(crate) fn of_frame(
     given: &EvaluationInput<'_>,
     motions: &Motions<'_>,
     input: &WorkerInput,
     results: &FrameResults<'_>,
-) -> Result<Vec<PairTangent>, Unknown> {
+) -> Vec<(u32, Result<PairTangent, Unknown>)> {
     let mut tangents = Vec::new();
     let pair_of = |reference: &ContactRef| reference.direction().group_pair;
     for refs in results.contacts.order.chunk_by(|a, b| pair_of(a) == pair_of(b)) {
-        let bodies = given.sealed.group_pairs[pair_of(&refs[0]) as usize].sides();
-        let mut tangent = PairTangent::of_groups(given.scene.stamp, bodies);
-        for refs in refs.chunk_by(|a, b| a.direction() == b.direction()) {
-            let direction = refs[0].direction();
-            let motion = motions.known(input, direction);
-            let context = PairContext::new(&given.round(input), direction, &motion);
-            let slopes = Frame { context: &context, results, direction }.slopes(refs)?;
-            tangent.add(&slopes, &context, motions, given.sealed.bodies_of(direction));
+        let group_pair = pair_of(&refs[0]);
+        let tangent = of_pair(given, motions, input, results, refs);
+        if tangent.as_ref().is_ok_and(|tangent| !tangent.touches) {
+            continue;
         }
-        if tangent.touches {
-            tangents.push(tangent);
-        }
+        tangents.push((group_pair, tangent));
     }
-    Ok(tangents)
+    tangents
+}
+
+/// Tangent of one pair of groups, from the references to its contacts.
+fn of_pair(
+    given: &EvaluationInput<'_>,
+    motions: &Motions<'_>,
+    input: &WorkerInput,
+    results: &FrameResults<'_>,
+    refs: &[ContactRef],
+) -> Result<PairTangent, Unknown> {
+    let bodies = given.sealed.group_pairs[refs[0].direction().group_pair as usize].sides();
+    let mut tangent = PairTangent::of_groups(given.scene.stamp, bodies);
+    for refs in refs.chunk_by(|a, b| a.direction() == b.direction()) {
+        let direction = refs[0].direction();
+        let motion = motions.known(input, direction);
+        let context = PairContext::new(&given.round(input), direction, &motion);
+        let slopes = Frame { context: &context, results, direction }.slopes(refs)?;
+        tangent.add(&slopes, &context, motions, given.sealed.bodies_of(direction));
+    }
+    Ok(tangent)
 }
 
 /// One direction of a pair of groups in the last frame.

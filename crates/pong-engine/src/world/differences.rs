@@ -41,7 +41,32 @@ impl World {
     /// committed yet.
     pub fn tangents_by_differences(&mut self) -> Result<Vec<PairTangent>, EngineError> {
         self.require_evaluated_frame()?;
-        let mut touching = self.touching_pairs();
+        self.differences(self.touching_pairs())
+    }
+
+    /// As [`tangents`](Self::tangents) for the pairs of groups whose contacts all have derivatives in closed form, and
+    /// as [`tangents_by_differences`](Self::tangents_by_differences) for the others; in the order of the groups.
+    ///
+    /// # Errors
+    /// As [`tangents_by_differences`](Self::tangents_by_differences).
+    pub fn complete_tangents(&mut self) -> Result<Vec<PairTangent>, EngineError> {
+        self.require_evaluated_frame()?;
+        let known = self.known_tangents();
+        let is_unknown = |pair: &Touching| {
+            known
+                .iter()
+                .any(|(group_pair, tangent)| *group_pair as usize == pair.group_pair && tangent.is_err())
+        };
+        let unknown = self.touching_pairs().into_iter().filter(is_unknown).collect();
+        let mut differences = self.differences(unknown)?.into_iter();
+        // Both lists are in the order of the pairs.
+        let complete =
+            known.into_iter().map(|(_, tangent)| tangent.or_else(|_| differences.next().ok_or(())));
+        Ok(complete.filter_map(Result::ok).collect())
+    }
+
+    /// Tangents of some pairs that touch, by differences.
+    fn differences(&mut self, mut touching: Vec<Touching>) -> Result<Vec<PairTangent>, EngineError> {
         let mut bodies: Vec<usize> = touching.iter().flat_map(|pair| pair.bodies).collect();
         bodies.sort_unstable();
         bodies.dedup();
@@ -62,7 +87,8 @@ impl World {
         let mut pairs = Vec::new();
         self.for_each_touching(|group_pair, _, _| {
             let bodies = sealed.group_pairs[group_pair as usize].sides();
-            let tangent = PairTangent::of_groups(self.scene.stamp, bodies);
+            let mut tangent = PairTangent::of_groups(self.scene.stamp, bodies);
+            tangent.by_differences = true;
             pairs.push(Touching { group_pair: group_pair as usize, bodies, tangent });
         });
         pairs

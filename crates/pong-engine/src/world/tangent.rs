@@ -19,9 +19,15 @@ impl World {
     /// [`EngineError::WrongPhase`] unless the last frame is evaluated and not committed yet;
     /// [`EngineError::BadValue`] if a contact has a law of the host's, which gives no derivatives, or is one whose
     /// derivatives are not known in closed form: then
-    /// [`tangents_by_differences`](Self::tangents_by_differences) gives them.
+    /// [`complete_tangents`](Self::complete_tangents) gives them by differences.
     pub fn tangents(&self) -> Result<Vec<PairTangent>, EngineError> {
         self.require_evaluated_frame()?;
+        let known = self.known_tangents().into_iter().map(|(_, tangent)| tangent);
+        known.collect::<Result<_, _>>().map_err(|unknown| self.without_tangent(&unknown))
+    }
+
+    /// Tangent of each pair of groups that touches, or why it has none in closed form, with the index of the pair.
+    pub(super) fn known_tangents(&self) -> Vec<(u32, Result<PairTangent, Unknown>)> {
         let runtime = &self.runtime;
         let given = EvaluationInput {
             scene: &self.scene,
@@ -32,7 +38,6 @@ impl World {
         };
         let motions = runtime.frame.motions(&runtime.sealed, &runtime.memory.poses);
         tangent::of_frame(&given, &motions, &runtime.frame.input, &self.last_results())
-            .map_err(|unknown| self.without_tangent(&unknown))
     }
 
     /// Stiffness and damping that act in each contact of the last frame, in the order of
@@ -70,7 +75,9 @@ impl World {
         };
         EngineError::BadValue {
             what: format!("tangent of `{a}` and `{b}`"),
-            cause: format!("a contact of {kind_a} and {kind_b} {why}; ask for the tangent by differences"),
+            cause: format!(
+                "a contact of {kind_a} and {kind_b} {why}; ask for complete_tangents, which takes differences there"
+            ),
         }
     }
 }

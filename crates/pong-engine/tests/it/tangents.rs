@@ -136,6 +136,7 @@ fn differences_give_the_same() {
         }
         let wrench = rig.wrench(0);
         let exact = rig.world.tangents().unwrap();
+        assert_eq!(rig.world.complete_tangents().unwrap(), exact);
         let differences = rig.world.tangents_by_differences().unwrap();
         assert!(apart(&exact, &differences, 0.3) < 1e-5, "{exact:?}\n{differences:?}");
         assert_eq!(rig.wrench(0), wrench, "the frame is that of before");
@@ -155,7 +156,8 @@ fn solids_have_a_tangent_by_differences() {
     rig.world.evaluate().unwrap();
     let refused = rig.world.tangents().unwrap_err().to_string();
     assert!(refused.contains("solids") && refused.contains("differences"), "{refused}");
-    let tangent = rig.world.tangents_by_differences().unwrap()[0];
+    let tangent = rig.world.complete_tangents().unwrap()[0];
+    assert!(tangent.by_differences);
     let force = rig.wrench(0).force.z;
     // Force K·A·δ, linear in the depth.
     let wanted = force / 1e-3;
