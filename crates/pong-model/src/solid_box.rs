@@ -19,6 +19,11 @@ impl SolidBox {
         (0..3).any(|axis| own_high[axis] < low[axis] || high[axis] < own_low[axis])
     }
 
+    /// Returns the box with faces farther out by a distance, m.
+    pub(crate) fn wider(self, distance: f64) -> Self {
+        Self { half: self.half.add_scalar(distance), ..self }
+    }
+
     /// Box around points; around the origin if there are none.
     pub(crate) fn around<'p>(points: impl IntoIterator<Item = &'p Vec3>) -> Self {
         let mut points = points.into_iter();

@@ -580,16 +580,44 @@ fn internal_faces_do_not_push() {
     );
 }
 
-/// A flat face that turns about its edge presses only where it approaches: with the damping of a cell clamped at
-/// its fastest point, the force acts within the face.
+/// A flat face that turns about its middle line presses only where 1 + χ·ḋ is positive: from the line at −1/(χ·ω) on, and
+/// the more, the farther a point is from it.
 #[test]
 fn parts_of_a_face_that_separate_fast_do_not_pull() {
     let damped = "stiffness: 1e5, foundation: 2e7, normal: HuntCrossley(dissipation: 1.0, exponent: 1.0), friction: None";
     let mut pair = Pair::new(&block(RIGID, [0.1; 3]), &block(damped, [1.0, 1.0, 0.2]));
-    for spin in [1.0, 10.0, 100.0, 1e3, 1e6] {
+    for spin in [1.0, 10.0, 20.0, 100.0, 1e3, 1e6] {
         let twist = Twist { linear: Vec3::zeros(), angular: Vec3::y() * spin };
         let (wrench, _) = pair.evaluate(&pose([0.0, 0.0, 0.299], [0.0; 3]), &twist);
-        let lever = wrench.moment.y.abs() / wrench.force.z;
-        assert!(wrench.force.z > 0.0 && lever < 0.1 / 3.0 + 1e-6, "{spin}: {wrench:?}");
+        let (half, elastic) = (0.1, 2e7 * 0.04 * 1e-3);
+        let (share, lever) = match spin * half <= 1.0 {
+            true => (1.0, spin * half * half / 3.0),
+            false => ((1.0 + spin * half).powi(2) / (4.0 * spin * half), (2.0 * half - 1.0 / spin) / 3.0),
+        };
+        assert!((wrench.force.z / (elastic * share) - 1.0).abs() < 1e-9, "{spin}: {wrench:?}");
+        assert!((wrench.moment.y.abs() / wrench.force.z - lever).abs() < 1e-9, "{spin}: {wrench:?}");
+    }
+}
+
+/// A thin fin beside a face changes its force by as much as the fin presses, also where the end of the fin separates fast:
+/// a part of no volume has no force, and no influence on the rest of the cell.
+#[test]
+fn thin_fin_that_separates_fast_leaves_the_force_of_the_face() {
+    let damped = "stiffness: 1e5, foundation: 2e7, normal: HuntCrossley(dissipation: 1.0, exponent: 1.0), friction: None";
+    let block = box_polyhedron("block", [0.0; 3], [0.1; 3], "");
+    let spin = 5.0;
+    let twist = Twist { linear: Vec3::zeros(), angular: Vec3::y() * spin };
+    let force = |fin: &str| {
+        let mut pair = Pair::new(&solid(RIGID, &format!("{block}{fin}")), &floor(damped));
+        let (wrench, _) = pair.evaluate(&pose([0.0, 0.0, 0.099], [0.0; 3]), &twist);
+        wrench.force.z
+    };
+    let alone = force("");
+    for width in [1e-2, 1e-4, 1e-6] {
+        let fin = box_polyhedron("fin", [-0.5, 0.0, 0.0], [0.4, 0.5 * width, 0.1], "");
+        // The fin presses with 1 + χ·ω·x between x = −0.2 and its root at x = −0.1.
+        let expected = 2e7 * 1e-3 * width * (0.1 - spin * 0.5 * (0.04 - 0.01));
+        let found = force(&format!(", {fin}")) - alone;
+        assert!((found - expected).abs() < 1e-9 * alone, "{width}: {found} {expected}");
     }
 }

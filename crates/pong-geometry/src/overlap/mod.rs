@@ -37,6 +37,8 @@ pub struct Cell {
     pub moments: Moments,
     /// Least depth rate over the vertices of the cell, m/s; negative where A leaves the face.
     pub least_rate: f64,
+    /// Greatest depth rate over the vertices of the cell, m/s.
+    pub greatest_rate: f64,
     /// Greatest depth below the face over the vertices of the cell, m.
     pub deepest: f64,
     /// Vertex at that depth, m; of several, the one with the lowest index.
@@ -60,13 +62,21 @@ impl Cell {
         if moments.volume <= 0.0 {
             return None;
         }
-        let mut cell =
-            Self { face, moments, least_rate: f64::INFINITY, deepest: -1.0, deepest_b: Vec3::zeros() };
+        let mut cell = Self {
+            face,
+            moments,
+            least_rate: f64::INFINITY,
+            greatest_rate: f64::NEG_INFINITY,
+            deepest: -1.0,
+            deepest_b: Vec3::zeros(),
+        };
         // The depth rate at x is rate_at_origin + slope·x.
         let rate_at_origin = -half_space.normal_b.dot(&velocity.linear);
         let slope = velocity.angular.cross(&half_space.normal_b);
         for vertex in surface.vertices() {
-            cell.least_rate = cell.least_rate.min(rate_at_origin + slope.dot(vertex));
+            let rate = rate_at_origin + slope.dot(vertex);
+            cell.least_rate = cell.least_rate.min(rate);
+            cell.greatest_rate = cell.greatest_rate.max(rate);
             let depth = half_space.depth(vertex);
             if depth > cell.deepest {
                 (cell.deepest, cell.deepest_b) = (depth, *vertex);

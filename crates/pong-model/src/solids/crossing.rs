@@ -4,8 +4,8 @@ use super::facets::Facet;
 use crate::solid_tree::SolidTree;
 use pong_geometry::Vec3;
 
-/// Distance, relative to the diameter, up to which triangles touch rather than cross.
-const TOUCH: f64 = 1e-9;
+/// Distance, relative to the diameter, up to which triangles touch rather than cross, and touch regions.
+pub(super) const TOUCH: f64 = 1e-9;
 
 /// Two triangles that cross, and a place where they do.
 pub(super) struct Crossing {

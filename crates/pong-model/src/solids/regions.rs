@@ -1,6 +1,7 @@
 //! Regions below the facets of a mesh that is not convex (docs/theory.md, 2.12): where each facet is the nearest
 //! face.
 
+use super::crossing::TOUCH;
 use super::facets::Facet;
 use super::thickened::Triangles;
 use crate::hull::PLANE_TOLERANCE;
@@ -50,6 +51,8 @@ struct Mesh<'m> {
     is_reentrant: Vec<bool>,
     is_thin: Vec<bool>,
     tolerance: f64,
+    /// Distance up to which a triangle touches a region, m.
+    touch: f64,
 }
 
 /// Regions of the triangles of a mesh that push, each with its triangle, and the walls of all regions. `tree` has the
@@ -60,13 +63,13 @@ pub(super) fn regions(
     tree: &SolidTree,
     diameter: f64,
 ) -> (Vec<(u32, SolidFacet)>, Vec<HalfSpace>) {
-    let mesh = Mesh::new(closed, facets, PLANE_TOLERANCE * diameter);
+    let mesh = Mesh::new(closed, facets, diameter);
     let (mut found, mut walls, mut near) = (Vec::new(), Vec::new(), Vec::new());
     let mut work = Work::default();
     for triangle in 0..closed.outer as u32 {
         let Some(mut region) = mesh.region(triangle, &mut work) else { continue };
         near.clear();
-        tree.meeting(&SolidBox::around(region.surface.vertices()), &mut near);
+        tree.meeting(&SolidBox::around(region.surface.vertices()).wider(mesh.touch), &mut near);
         mesh.lower(&mut region, &near, &mut work);
         let first = walls.len() as u32;
         let face = mesh.planes[triangle as usize];
@@ -81,7 +84,8 @@ pub(super) fn regions(
 }
 
 impl<'m> Mesh<'m> {
-    fn new(closed: &'m Triangles, facets: &[Facet], tolerance: f64) -> Self {
+    fn new(closed: &'m Triangles, facets: &[Facet], diameter: f64) -> Self {
+        let [tolerance, touch] = [PLANE_TOLERANCE, TOUCH].map(|relative| relative * diameter);
         let triangles = &closed.triangles;
         let beyond = beyond(triangles);
         let is_thin: Vec<bool> = facets.iter().map(|facet| facet.is_thin(tolerance)).collect();
@@ -98,7 +102,8 @@ impl<'m> Mesh<'m> {
             }
         }
         let is_reentrant = Vec::new();
-        let mut mesh = Self { closed, planes, beyond, starts, around, is_reentrant, is_thin, tolerance };
+        let mut mesh =
+            Self { closed, planes, beyond, starts, around, is_reentrant, is_thin, tolerance, touch };
         mesh.is_reentrant = mesh.reentrant_vertices();
         mesh
     }
@@ -216,8 +221,11 @@ impl<'m> Mesh<'m> {
         })
     }
 
-    /// Cuts a region off so that it ends half-way to the next of some triangles that lies in it. Triangles with a
-    /// common vertex are bounded by walls.
+    /// Cuts a region off so that it ends half-way to the next of some triangles that lies in it or touches it. Triangles
+    /// with a common vertex are bounded by walls.
+    ///
+    /// A triangle that only touches the region counts, because rounding would decide whether it lies in the region. A
+    /// place on the triangle of the region itself does not.
     fn lower(&self, region: &mut Region, near: &[u32], work: &mut Work) {
         let own = self.closed.triangles[region.triangle as usize];
         let face = &self.planes[region.triangle as usize];
@@ -231,22 +239,22 @@ impl<'m> Mesh<'m> {
             let planes = || std::iter::once(face).chain(&region.walls);
             let corners = self.corners(other);
             // Most of the triangles near a region are outside of one of its planes.
-            if planes().any(|plane| corners.iter().all(|corner| plane.depth(corner) < 0.0)) {
+            if planes().any(|plane| corners.iter().all(|corner| plane.depth(corner) < -self.touch)) {
                 continue;
             }
             let [polygon, next] = &mut work.polygons;
             polygon.clear();
             polygon.extend(corners);
             for plane in planes() {
-                clip(polygon, plane, next);
+                clip(polygon, &HalfSpace { offset: plane.offset + self.touch, ..*plane }, next);
                 std::mem::swap(polygon, next);
             }
-            let depths = polygon.iter().map(|place| share * face.depth(place));
-            height = depths.fold(height, f64::min);
+            let depths = polygon.iter().map(|place| face.depth(place)).filter(|depth| *depth > self.touch);
+            height = depths.map(|depth| share * depth).fold(height, f64::min);
         }
         let floor = HalfSpace { normal_b: -face.normal_b, offset: height - face.offset };
         let deepest = region.surface.vertices().iter().map(|place| face.depth(place)).fold(0.0, f64::max);
-        if height < deepest || deepest >= 0.999 * region.height {
+        if height < deepest - self.touch || deepest >= 0.999 * region.height {
             region.cut(floor, work);
             region.height = height;
         } else {

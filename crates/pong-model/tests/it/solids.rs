@@ -2,7 +2,7 @@
 
 use crate::common::families::FAMILIES;
 use crate::common::{cube, cube_vertices, faults, load};
-use pong_geometry::Vec3;
+use pong_geometry::{Quat, Vec3};
 use pong_model::{Model, Solid, SolidFacet};
 use pong_testkit::{Random, samples};
 
@@ -295,6 +295,42 @@ fn regions_of_a_torus_divide_the_volume_below_its_surface() {
     }
     println!("{once} of {all}");
     assert!(once as f64 > 0.999 * all as f64, "{once} of {all}");
+}
+
+/// Vertices and triangles of an L that is 1 thick, with limbs 2 wide. The regions below its large faces end in ridges that
+/// lie exactly in the opposite faces.
+fn l_of_thickness_one() -> (Vec<Vec3>, Vec<[u32; 3]>) {
+    let outline = [[-2.0, -4.0], [4.0, -4.0], [4.0, 0.0], [0.0, 0.0], [0.0, 1.0], [-2.0, 1.0]];
+    let vertices = [-0.5, 0.5].into_iter().flat_map(|y| outline.map(|[x, z]| Vec3::new(x, y, z)));
+    let ends = [[0, 1, 2], [0, 2, 3], [0, 3, 5], [3, 4, 5]];
+    let opposite = ends.map(|[a, b, c]| [a + 6, c + 6, b + 6]);
+    let sides = (0..6).flat_map(|at| {
+        let [here, next] = [at, (at + 1) % 6];
+        [[here, here + 6, next + 6], [here, next + 6, next]]
+    });
+    (vertices.collect(), ends.into_iter().chain(opposite).chain(sides).collect())
+}
+
+/// A triangle that a region touches, without volume in common, bounds its height whatever the axes of the mesh are, and both
+/// of two opposite triangles alike.
+#[test]
+fn heights_of_regions_do_not_depend_on_the_axes() {
+    let (vertices, triangles) = l_of_thickness_one();
+    let heights = |turn: &Quat| -> Vec<f64> {
+        let turned: Vec<Vec3> = vertices.iter().map(|vertex| turn * vertex).collect();
+        only(&mesh_of(&turned, &triangles, "")).facets.iter().map(|facet| facet.height).collect()
+    };
+    let expected = heights(&Quat::identity());
+    for index in 0..3 {
+        assert_eq!((expected[index], expected[4 + index]), (0.5, 0.5), "{expected:?}");
+    }
+    let mut random = Random::new(46, 1, 0);
+    for _ in 0..samples(200) {
+        let turn = Quat::from_scaled_axis(Vec3::from_fn(|_, _| random.between(-2.0, 2.0)));
+        for (height, expected) in heights(&turn).into_iter().zip(&expected) {
+            assert!(height == *expected || (height - expected).abs() < 1e-12, "{height} {expected}");
+        }
+    }
 }
 
 /// One vertex of a torus is drawn through the tube into the hole.

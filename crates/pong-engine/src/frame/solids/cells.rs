@@ -29,6 +29,13 @@ pub(crate) struct SolidScratch {
     pub(super) forces: Vec<CellForce>,
 }
 
+/// Cells of one field of a pair, with the faces that push and the workspace for a second cut.
+pub(super) struct FoundField<'s> {
+    pub cells: &'s FieldCells,
+    pub faces: &'s PushingFaces,
+    pub overlap: &'s mut Overlap,
+}
+
 /// Faces of a side that push, with their numbers among all faces of the side. The edges of its field are counted after them.
 #[derive(Debug, Default)]
 pub(super) struct PushingFaces {
@@ -96,6 +103,7 @@ impl FieldCells {
                 Some(earlier) => {
                     earlier.moments += moments;
                     earlier.least_rate = earlier.least_rate.min(cell.least_rate);
+                    earlier.greatest_rate = earlier.greatest_rate.max(cell.greatest_rate);
                 }
                 None => self.cells.push(Cell { moments, ..*cell }),
             }
@@ -158,6 +166,13 @@ impl SolidScratch {
         }
         let field = Field { faces: a.faces, walls: a.walls };
         b.parts.iter().any(|part| self.overlap.share_volume(&part.surface, x.1, &field))
+    }
+
+    /// Cells of the field of A or of B, and the forces found so far.
+    pub(super) fn field(&mut self, is_of_a: bool) -> (FoundField<'_>, &mut Vec<CellForce>) {
+        let Self { overlap, faces_b, faces_a, of_b, of_a, forces, .. } = self;
+        let (cells, faces) = if is_of_a { (&*of_a, &*faces_a) } else { (&*of_b, &*faces_b) };
+        (FoundField { cells, faces, overlap }, forces)
     }
 
     /// Lists the faces of both sides that push.
@@ -246,6 +261,39 @@ impl Search<'_> {
                 }
             }
         }
+    }
+}
+
+impl FoundField<'_> {
+    /// Moments of the part of a cell inside a half space, about the reference point of the cells. `face` is the face of
+    /// the cell, `x` transforms from the frame of `other` to that of `owner`, which has the field.
+    pub fn part_inside(
+        &mut self,
+        face: usize,
+        half_space: &HalfSpace,
+        (other, owner): (&Side<'_>, &Side<'_>),
+        x: &Transform,
+    ) -> Moments {
+        let Self { cells, faces, overlap } = self;
+        let (field, face) = match owner.regions.facets.get(face) {
+            Some(facet) => {
+                let walls = owner.regions.walls(facet);
+                (Field { faces: &faces.planes[face..=face], walls }, 0)
+            }
+            None => (Field { faces: &faces.planes, walls: owner.walls }, face),
+        };
+        let mut sum = Moments::default();
+        for part in other.parts {
+            overlap.place(&part.surface, x);
+            if overlap.cut_placed(half_space) {
+                let found =
+                    overlap.placed_cells(&field, &Twist::zero()).iter().find(|cell| cell.face == face);
+                let moments = found.map(|cell| cell.moments);
+                let from = overlap.reference_b() - cells.reference_b;
+                moments.inspect(|moments| sum += moments.about(&from));
+            }
+        }
+        sum
     }
 }
 

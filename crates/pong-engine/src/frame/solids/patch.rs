@@ -2,7 +2,7 @@
 //! (docs/theory.md, 2.12).
 
 use super::cell_force::CellForce;
-use super::cells::{FieldCells, PushingFaces, SolidScratch};
+use super::cells::{FieldCells, FoundField, SolidScratch};
 use super::entry::{self, Entry};
 use super::relative::Relative;
 use super::side::Side;
@@ -19,7 +19,7 @@ use pong_geometry::interference::Feature;
 use pong_geometry::overlap::{Cell, HalfSpace, Moments};
 use pong_geometry::pose::carry_by_smallest_rotation;
 use pong_geometry::primitive::PrimitiveKind;
-use pong_geometry::{Twist, Vec3, any_perpendicular, divisor};
+use pong_geometry::{Vec3, any_perpendicular, divisor};
 
 /// Least resultant of the normal forces that has friction, relative to K·V. Below it the cells push against
 /// each other, and the direction of their sum is rounding.
@@ -64,13 +64,13 @@ struct PatchFriction {
 impl Patch<'_> {
     /// Adds the contacts of the patch: a cell each, two for the friction, and the memory of the side of entry.
     pub fn add_contacts(&self, scratch: &mut SolidScratch, entry: Option<&Entry>, out: &mut ContactBuffer) {
-        let SolidScratch { of_b, of_a, faces_b, faces_a, forces, .. } = scratch;
-        forces.clear();
-        self.add_forces(SolidContactPart::CellOfB, (of_b, faces_b), forces);
-        self.add_forces(SolidContactPart::CellOfA, (of_a, faces_a), forces);
+        scratch.forces.clear();
+        self.add_forces(SolidContactPart::CellOfB, scratch);
+        self.add_forces(SolidContactPart::CellOfA, scratch);
+        let SolidScratch { of_b, of_a, forces, .. } = &*scratch;
         let resultant = self.resultant(forces, (of_a, of_b));
         let sticks = resultant.is_some_and(|resultant| self.add_friction(&resultant, out));
-        for force in forces.iter() {
+        for force in forces {
             self.add_cell(force, sticks, out);
         }
         if let Some(entry) = entry {
@@ -80,24 +80,14 @@ impl Patch<'_> {
 
     /// Adds the forces of the cells in the field of one side, the owner: it pushes the other side along its faces, and A
     /// the opposite way if A is the owner.
-    fn add_forces(
-        &self,
-        owner: SolidContactPart,
-        (found, faces): (&FieldCells, &PushingFaces),
-        forces: &mut Vec<CellForce>,
-    ) {
-        let (reference, x_ba) = (&found.reference_b, &self.relative.x_ba);
+    fn add_forces(&self, owner: SolidContactPart, scratch: &mut SolidScratch) {
         let is_of_a = owner == SolidContactPart::CellOfA;
-        let (velocity, share) = match is_of_a {
-            true => (&self.relative.b_in_a, self.shares[0]),
-            false => (&self.relative.a_in_b, self.shares[1]),
-        };
-        for cell in &found.cells {
-            let Some(force) = self.cell_force(cell, &faces.planes[cell.face], reference, velocity, share)
-            else {
-                continue;
-            };
-            let force = CellForce { part: owner, face: faces.numbers[cell.face], ..force };
+        let (mut field, forces) = scratch.field(is_of_a);
+        let x_ba = &self.relative.x_ba;
+        let cells = field.cells;
+        for cell in &cells.cells {
+            let Some(force) = self.cell_force(cell, is_of_a, &mut field) else { continue };
+            let force = CellForce { part: owner, face: field.faces.numbers[cell.face], ..force };
             forces.push(match is_of_a {
                 true => CellForce {
                     normal_b: -x_ba.vector(&force.normal_b),
@@ -112,17 +102,15 @@ impl Patch<'_> {
     /// Force of a cell in the frame of the field's owner, on the other side. A cell is a spring of the area
     /// V²/(2I) and the depth 2I/V, with I = ∫d dV: its force is K·V, and its energy K·I.
     ///
-    /// Damping multiplies the integrand by 1 + s·χ·ḋ, where s in 0…1 is the largest for which no point of the
-    /// cell pulls.
-    fn cell_force(
-        &self,
-        cell: &Cell,
-        face: &HalfSpace,
-        reference: &Vec3,
-        velocity: &Twist,
-        share: f64,
-    ) -> Option<CellForce> {
-        let Moments { volume, first_b, second } = &cell.moments;
+    /// Damping multiplies the integrand by 1 + χ·ḋ, and by zero where this is negative, so no point of the cell pulls.
+    fn cell_force(&self, cell: &Cell, is_of_a: bool, field: &mut FoundField<'_>) -> Option<CellForce> {
+        let (faces, cells) = (field.faces, field.cells);
+        let (face, reference) = (&faces.planes[cell.face], &cells.reference_b);
+        let (velocity, share) = match is_of_a {
+            true => (&self.relative.b_in_a, self.shares[0]),
+            false => (&self.relative.a_in_b, self.shares[1]),
+        };
+        let Moments { volume, first_b, .. } = &cell.moments;
         let depths = face.depth(reference) * volume - face.normal_b.dot(first_b);
         if *volume <= 0.0 || depths <= 0.0 {
             return None;
@@ -136,10 +124,17 @@ impl Patch<'_> {
         let elastic = normal_force(self.props, area, depth, 0.0);
         let damping = normal_tangent(self.props, area, depth, 0.0).map_or(0.0, |tangent| tangent.damping);
         let dissipation = damping / elastic.max(f64::MIN_POSITIVE);
-        let least = dissipation * cell.least_rate;
-        let applied = if least < -1.0 { dissipation / divisor(-least) } else { dissipation };
-        let damped = volume + applied * rates;
-        let first = first_b + (first_b * at_reference + second * slope) * applied;
+        let mut pressing = cell.moments;
+        if dissipation * cell.least_rate < -1.0 && dissipation * cell.greatest_rate > -1.0 {
+            // Depth of a point in the half space: its rate of the depth above −1/χ.
+            let offset = 1.0 / dissipation - face.normal_b.dot(&velocity.linear);
+            let presses = HalfSpace { normal_b: -slope, offset };
+            pressing = self.part_inside(cell, is_of_a, &presses, field);
+        }
+        let damped =
+            pressing.volume + dissipation * (at_reference * pressing.volume + slope.dot(&pressing.first_b));
+        let first =
+            pressing.first_b + (pressing.first_b * at_reference + pressing.second * slope) * dissipation;
         let pulls_nowhere = damped > 1e-12 * volume;
         let center = if pulls_nowhere { first / divisor(damped) } else { first_b / per_volume };
         Some(CellForce {
@@ -152,6 +147,21 @@ impl Patch<'_> {
             area,
             depth,
         })
+    }
+
+    /// Moments of the part of a cell inside a half space of its field's frame.
+    fn part_inside(
+        &self,
+        cell: &Cell,
+        is_of_a: bool,
+        half_space: &HalfSpace,
+        field: &mut FoundField<'_>,
+    ) -> Moments {
+        let (a, b) = self.sides;
+        match is_of_a {
+            true => field.part_inside(cell.face, half_space, (b, a), &self.relative.x_ab),
+            false => field.part_inside(cell.face, half_space, (a, b), &self.relative.x_ba),
+        }
     }
 
     /// Resultant of the forces; `None` if they cancel, or if there are none.
