@@ -135,6 +135,9 @@ def restarted():
     yield Fact("restarted while both places touch: the same bits", made.save().tobytes() == end)
 
 
+ROWS_PER_SECOND = 100  # of logs and films, which show a third of the speed of life
+
+
 def shown(prepare):
     """Run for logs and films: the compliant insertion."""
     made = rig.machine(held(TILT, STIFFNESS))
