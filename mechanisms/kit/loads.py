@@ -72,8 +72,9 @@ class History:
         return ("time", "phase", *(f"{quantity}.{body}" for body in self.bodies for quantity, _ in QUANTITIES))
 
     def last(self, body, quantity):
-        """Load in the last step."""
-        return float(self.values[-1][self.bodies.index(body), [name for name, _ in QUANTITIES].index(quantity)])
+        """Load at the end: in the last step of a phase, where the run ends with the first step of the next one."""
+        entered = len(self.phases) > 1 and self.phases[-1] != self.phases[-2]
+        return float(self.values[-2 if entered else -1][self.bodies.index(body), [name for name, _ in QUANTITIES].index(quantity)])
 
     def table(self, case, predicted):
         """Rows of the table: a peak each, quantiles over the time in which something touches the body, and the end.
