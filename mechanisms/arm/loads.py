@@ -29,6 +29,6 @@ def run_case(case, watch):
 
 
 def predicted(case):
-    """What is commanded, less the dead band of the law; the pad has no friction."""
+    """Commanded force less the dead band of the law; the pad has no friction."""
     force = min(d.PUSH, Law().push) - Law().band
     return {("tip", "force"): force, ("pad", "force"): force}

@@ -9,7 +9,7 @@ SIZE, DOTS = (11.0, 6.5), 110  # inches; dots of an inch
 def write(path, title, columns, rows):
     """Draws the loads of a history over time, one panel for forces and one for moments, with phases and peaks.
 
-    `columns`: time, phase, and a load each, such as `force.target`.
+    `columns`: time, phase, and a load each, such as `force.target`. Bodies that nothing touches are left out.
     """
     try:
         import matplotlib
@@ -24,22 +24,23 @@ def write(path, title, columns, rows):
     for panel, quantity, unit in zip(panels, ("force", "moment"), ("N", "N·m")):
         for number, column in enumerate(columns):
             kind, _, body = column.partition(".")
-            if kind == quantity:
-                _line(panel, times, np.array([row[number] for row in rows], float), body, unit)
+            values = np.array([row[number] for row in rows], float) if kind == quantity else np.zeros(1)
+            if values.any():
+                _line(panel, times, values, f"{body}: {values.max():.4g} {unit}")
         _phases(panel, times, [row[PHASE] for row in rows], named=panel is panels[0])
         panel.set_ylabel(f"{quantity}, {unit}")
         panel.grid(alpha=0.3)
-        panel.legend(loc="upper right", fontsize="small")
+        if panel.lines:
+            panel.legend(loc="upper right", fontsize="small")
     panels[-1].set_xlabel("time, s")
     figure.suptitle(title)
     figure.savefig(path, dpi=DOTS)
     plt.close(figure)
 
 
-def _line(panel, times, values, body, unit):
-    """A load and a dot at its peak, whose value is in the legend."""
+def _line(panel, times, values, label):
+    """A load and a dot at its peak."""
     greatest = int(np.argmax(values))
-    label = f"{body}: {values[greatest]:.4g} {unit} at {times[greatest]:.3f} s"
     (line,) = panel.plot(times, values, lw=1.0, label=label)
     panel.plot(times[greatest], values[greatest], "o", ms=4, color=line.get_color())
 
