@@ -74,7 +74,8 @@ class History:
     def last(self, body, quantity):
         """Load at the end: in the last step of a phase, where the run ends with the first step of the next one."""
         entered = len(self.phases) > 1 and self.phases[-1] != self.phases[-2]
-        return float(self.values[-2 if entered else -1][self.bodies.index(body), [name for name, _ in QUANTITIES].index(quantity)])
+        column = [name for name, _ in QUANTITIES].index(quantity)
+        return float(self.values[-2 if entered else -1][self.bodies.index(body), column])
 
     def table(self, case, predicted):
         """Rows of the table: a peak each, quantiles over the time in which something touches the body, and the end.

@@ -96,6 +96,8 @@ def bounce(thrown, mass, stiffness, folder):
 
     mechanism = SimpleNamespace(Case=Case, LOADED=("ball",), run_case=run_case, predicted=predicted)
     found = loads.run(mechanism, {"slow": {"speed": 0.5}, "fast": {"speed": 1.0}}, folder)
+    for wrong in ({"sped": 0.5}, {"level": "training"}):
+        yield Fact(f"loads: a case is refused: {wrong}", _exits(loads.case_of, mechanism, "wrong", wrong))
     peaks = {(row[0], row[2]): dict(zip(loads.TABLE, row)) for row in found}
     rate, step = math.sqrt(stiffness / mass), 1e-3
     for name, speed in (("slow", 0.5), ("fast", 1.0)):
@@ -118,9 +120,13 @@ def _has(module):
 
 
 def _refused(text, home):
+    return _exits(lambda: parameters.install(home, parameters.settings([text])))
+
+
+def _exits(function, *arguments):
     try:
         with contextlib.redirect_stderr(io.StringIO()):
-            parameters.install(home, parameters.settings([text]))
+            function(*arguments)
     except SystemExit:
         return True
     return False
