@@ -194,39 +194,68 @@ fn law_and_inertia_of_a_tossed_cube_are_found_and_threads_change_no_bit() {
     }
 }
 
-/// Share of synthetic logs in whose 95 % intervals the true values lie.
-#[test]
-#[ignore = "takes many minutes; run it once after a change of the intervals"]
-fn intervals_cover_the_truth_in_95_of_100_logs() {
-    let logs: u64 = std::env::var("PONG_FIT_LOGS").ok().and_then(|count| count.parse().ok()).unwrap_or(1000);
-    let scene = common::ramped("coverage");
+/// Counts of synthetic logs in whose 95 % intervals the true values of damping and friction lie.
+#[derive(Debug, Default)]
+struct Covered {
+    profile: [u64; 2],
+    curvature: [u64; 2],
+    bootstrap: [u64; 2],
+}
+
+/// Number of logs for coverages.
+fn logs() -> u64 {
+    std::env::var("PONG_FIT_LOGS").ok().and_then(|count| count.parse().ok()).unwrap_or(1000)
+}
+
+/// Fits synthetic logs of a ball, each with a number of records.
+fn covered(name: &str, of_log: u64, profiles: bool) -> Covered {
+    let scene = common::ramped(name);
     let names = ["surface.ball.rubber.normal.damping", "surface.ball.rubber.friction.mu"];
     let truth = [25.0, 0.3];
     let names: Vec<String> = names.iter().map(ToString::to_string).collect();
     let mut batch = Batch::new(&scene, &names, 2).unwrap();
-    let mut covered = [[0_u64; 2]; 2];
-    for log in 0..logs {
+    let mut covered = Covered::default();
+    for log in 0..logs() {
         let start = |number: u64| {
             let mut random = Random::new(log, 9, number);
             let pose = Pose { position: Vec3::new(0.0, 0.0, 0.105), ..Pose::identity() };
             let linear = Vec3::new(random.between(1.0, 2.0), 0.0, random.between(-1.5, -0.5));
             (pose, Twist { linear, angular: Vec3::new(0.0, random.between(-10.0, 10.0), 0.0) })
         };
-        let starts: Vec<_> = (0..4).map(start).collect();
+        let starts: Vec<_> = (0..of_log).map(start).collect();
         let data = records(&mut batch, &truth, &starts, &synthetic::times(10, 4e-3), log);
         let free = vec![free(&names[0], 2.0, 200.0), free(&names[1], 0.05, 1.0)];
-        let settings = Settings { free, tries: 1, test: 0.0, threads: 2, ..Settings::default() };
+        let settings = Settings { free, tries: 1, test: 0.0, threads: 2, profiles, ..Settings::default() };
         let fit = run(&scene, &data, &settings);
         for (place, truth) in truth.iter().enumerate() {
             let holds = |(low, high): (f64, f64)| low <= *truth && *truth <= high;
-            covered[0][place] += u64::from(fit.parameters[place].profile.is_some_and(holds));
-            covered[1][place] += u64::from(holds(fit.parameters[place].linear));
+            let one = &fit.parameters[place];
+            covered.profile[place] += u64::from(one.profile.is_some_and(holds));
+            covered.curvature[place] += u64::from(holds(one.linear));
+            covered.bootstrap[place] += u64::from(one.bootstrap.is_some_and(holds));
         }
         if log % 50 == 49 {
-            eprintln!("{} logs: profile {:?}, curvature {:?}", log + 1, covered[0], covered[1]);
+            eprintln!("{} logs: {covered:?}", log + 1);
         }
     }
-    for count in covered[0] {
-        assert!((0.93..=0.97).contains(&(count as f64 / logs as f64)), "profile: {covered:?} of {logs}");
-    }
+    covered
+}
+
+/// True if a count of logs is 93 to 97 % of all.
+fn honest(count: u64) -> bool {
+    (0.93..=0.97).contains(&(count as f64 / logs() as f64))
+}
+
+#[test]
+#[ignore = "takes many minutes; run it once after a change of the intervals"]
+fn intervals_cover_the_truth_in_95_of_100_logs() {
+    let found = covered("coverage", 4, true);
+    assert!(found.profile.into_iter().all(honest), "{found:?}");
+}
+
+#[test]
+#[ignore = "takes minutes; run it once after a change of the intervals"]
+fn bootstrap_intervals_cover_the_truth_in_95_of_100_logs() {
+    let found = covered("coverage_bootstrap", 20, false);
+    assert!(found.bootstrap.into_iter().all(honest), "{found:?}");
 }
