@@ -207,9 +207,21 @@ fn logs() -> u64 {
     std::env::var("PONG_FIT_LOGS").ok().and_then(|count| count.parse().ok()).unwrap_or(1000)
 }
 
-/// Fits synthetic logs of a ball, each with a number of records.
-fn covered(name: &str, of_log: u64, profiles: bool) -> Covered {
-    let scene = common::ramped(name);
+/// Synthetic logs of a ball.
+struct Logs {
+    name: &'static str,
+    /// Number of records of a log.
+    records: u64,
+    /// Relative standard deviation of damping and friction from record to record.
+    scatter: f64,
+    /// Known starts, or starts that are measured as all else and fitted.
+    starts: Starts,
+    profiles: bool,
+}
+
+/// Fits the logs, and counts those whose intervals have the true values.
+fn covered(logs_of: &Logs) -> Covered {
+    let scene = common::ramped(logs_of.name);
     let names = ["surface.ball.rubber.normal.damping", "surface.ball.rubber.friction.mu"];
     let truth = [25.0, 0.3];
     let names: Vec<String> = names.iter().map(ToString::to_string).collect();
@@ -222,10 +234,26 @@ fn covered(name: &str, of_log: u64, profiles: bool) -> Covered {
             let linear = Vec3::new(random.between(1.0, 2.0), 0.0, random.between(-1.5, -0.5));
             (pose, Twist { linear, angular: Vec3::new(0.0, random.between(-10.0, 10.0), 0.0) })
         };
-        let starts: Vec<_> = (0..of_log).map(start).collect();
-        let data = records(&mut batch, &truth, &starts, &synthetic::times(10, 4e-3), log);
+        let mut data = Data { noise: noise(), ..Data::default() };
+        for number in 0..logs_of.records {
+            let mut random = Random::new(log, 10, number);
+            let values = truth.map(|truth| truth * (1.0 + logs_of.scatter * synthetic::normal(&mut random)));
+            let (start, seed) = (start(number), 1000 * log + number);
+            let mut record =
+                records(&mut batch, &values, &[start], &synthetic::times(10, 4e-3), seed).records.remove(0);
+            record.name = format!("{number}");
+            if logs_of.starts == Starts::Measured {
+                let (pose, twist) = start;
+                let row = &mut record.rows[0];
+                (row.position, row.orientation) = (Some(pose.position), Some(pose.orientation));
+                (row.velocity, row.angular_velocity) = (Some(twist.linear), Some(twist.angular));
+            }
+            data.records.push(record);
+        }
         let free = vec![free(&names[0], 2.0, 200.0), free(&names[1], 0.05, 1.0)];
-        let settings = Settings { free, tries: 1, test: 0.0, threads: 2, profiles, ..Settings::default() };
+        let (starts, profiles) = (logs_of.starts, logs_of.profiles);
+        let settings =
+            Settings { free, tries: 1, test: 0.0, threads: 2, starts, profiles, ..Settings::default() };
         let fit = run(&scene, &data, &settings);
         for (place, truth) in truth.iter().enumerate() {
             let holds = |(low, high): (f64, f64)| low <= *truth && *truth <= high;
@@ -249,13 +277,31 @@ fn honest(count: u64) -> bool {
 #[test]
 #[ignore = "takes many minutes; run it once after a change of the intervals"]
 fn intervals_cover_the_truth_in_95_of_100_logs() {
-    let found = covered("coverage", 4, true);
+    let logs = Logs { name: "coverage", records: 4, scatter: 0.0, starts: Starts::Fitted, profiles: true };
+    let found = covered(&logs);
     assert!(found.profile.into_iter().all(honest), "{found:?}");
 }
 
 #[test]
 #[ignore = "takes minutes; run it once after a change of the intervals"]
 fn bootstrap_intervals_cover_the_truth_in_95_of_100_logs() {
-    let found = covered("coverage_bootstrap", 20, false);
+    let logs =
+        Logs { name: "coverage_noise", records: 12, scatter: 0.0, starts: Starts::Measured, profiles: false };
+    let found = covered(&logs);
+    assert!(found.bootstrap.into_iter().all(honest), "{found:?}");
+}
+
+/// The true values are those about which the values of the records scatter.
+#[test]
+#[ignore = "takes minutes; run it once after a change of the intervals"]
+fn bootstrap_intervals_cover_where_records_differ() {
+    let logs = Logs {
+        name: "coverage_scatter",
+        records: 12,
+        scatter: 0.1,
+        starts: Starts::Measured,
+        profiles: false,
+    };
+    let found = covered(&logs);
     assert!(found.bootstrap.into_iter().all(honest), "{found:?}");
 }
