@@ -1,0 +1,4 @@
+//! Slow hosts against closed forms, energies and runs in short steps.
+
+mod bounce;
+mod rig;
