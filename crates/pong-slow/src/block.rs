@@ -5,7 +5,7 @@
 //! | 8 | `pongslow` |
 //! | 8 each | version, hash of the scene, number of bodies, length of the contact state |
 //! | 8 each | length of the last frame, squared rate |
-//! | per body | axes, length of the queue, offset (7), held back (6), predicted (7 + 6), given (7 + 6), queue (6 each) |
+//! | per body | axes, length of the queue, unspent work, offset (7), held back (6), predicted (7 + 6), given (7 + 6), queue (6 each) |
 //! | | the contact state of the engine |
 //! | 8 | hash of all before |
 //!
@@ -33,6 +33,7 @@ pub(crate) fn write(memory: &Memory, contact: &[u8], scene: u64) -> Vec<u8> {
         for word in [u64::from(body.axes == Axes::Group), body.queue.len() as u64] {
             out.extend(word.to_le_bytes());
         }
+        numbers(&mut out, &[body.unspent]);
         for (pose, six) in [
             (&body.offset, &body.held_back),
             (&body.predicted, &body.predicted_velocity),
@@ -68,7 +69,9 @@ pub(crate) fn read(bytes: &[u8], scene: u64, bodies: usize) -> Result<(Memory, V
     let mut input = Input { bytes: &all[8..] };
     let [version, of_scene, count, contact] = input.words().ok_or_else(damaged)?;
     if version != VERSION {
-        return Err(refused(&format!("it has version {version}, and this release reads version {VERSION}; restore it with the release that saved it")));
+        return Err(refused(&format!(
+            "it has version {version}, and this release reads version {VERSION}; restore it with the release that saved it"
+        )));
     }
     if of_scene != scene {
         return Err(refused("it is of another scene; build the world by the same calls"));
@@ -121,10 +124,21 @@ impl Input<'_> {
     fn body(&mut self) -> Option<KeptBody> {
         let [axes, queued] = self.words()?;
         let axes = if axes == 0 { Axes::Common } else { Axes::Group };
+        let [unspent] = self.numbers()?;
         let (offset, held_back) = (self.pose()?, self.six()?);
         let (predicted, predicted_velocity) = (self.pose()?, self.six()?);
         let (given, given_velocity) = (self.pose()?, self.six()?);
         let queue: VecDeque<_> = (0..queued).map(|_| self.six()).collect::<Option<_>>()?;
-        Some(KeptBody { axes, offset, held_back, predicted, predicted_velocity, given, given_velocity, queue })
+        Some(KeptBody {
+            axes,
+            offset,
+            held_back,
+            unspent,
+            predicted,
+            predicted_velocity,
+            given,
+            given_velocity,
+            queue,
+        })
     }
 }

@@ -54,7 +54,18 @@ impl Body {
         };
         let dynamics = input.dynamics;
         let interface = input.interface;
-        Ok(Self { interface, name, axes, dynamics, mass_center, root, pose, leading: pose, velocity, acceleration })
+        Ok(Self {
+            interface,
+            name,
+            axes,
+            dynamics,
+            mass_center,
+            root,
+            pose,
+            leading: pose,
+            velocity,
+            acceleration,
+        })
     }
 
     /// Sets the leading pose for a frame of this length, s.
@@ -122,9 +133,7 @@ impl Body {
         let held = impulse / length;
         let turned = match self.axes {
             Axes::Common => held,
-            Axes::Group => {
-                six(self.pose.orientation * linear(&held), self.pose.orientation * angular(&held))
-            }
+            Axes::Group => six(self.pose.orientation * linear(&held), self.pose.orientation * angular(&held)),
         };
         let force = linear(&turned);
         let arm = self.pose.orientation * self.mass_center;

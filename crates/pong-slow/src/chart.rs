@@ -108,9 +108,10 @@ pub(crate) fn offset(axes: Axes, from: &Pose, to: &Pose) -> Pose {
 /// Pose at an offset from another one.
 pub(crate) fn at_offset(axes: Axes, from: &Pose, offset: &Pose) -> Pose {
     match axes {
-        Axes::Common => {
-            Pose { position: from.position + offset.position, orientation: offset.orientation * from.orientation }
-        }
+        Axes::Common => Pose {
+            position: from.position + offset.position,
+            orientation: offset.orientation * from.orientation,
+        },
         Axes::Group => from.compose(offset),
     }
 }

@@ -19,7 +19,13 @@ pub(crate) struct Row {
 
 impl Row {
     /// A direction (unit, common axes) at a point of A and a point of B (common frame).
-    pub fn new(bodies: &[Body], poses: &[Pose], (a, b): (usize, usize), points: [&Vec3; 2], direction: &Vec3) -> Self {
+    pub fn new(
+        bodies: &[Body],
+        poses: &[Pose],
+        (a, b): (usize, usize),
+        points: [&Vec3; 2],
+        direction: &Vec3,
+    ) -> Self {
         let on = |body: usize, point, direction: &Vec3| {
             chart::of_force_at(bodies[body].axes, &poses[body], point, direction)
         };
@@ -58,7 +64,11 @@ pub(crate) fn place(
 }
 
 /// Contacts of bodies that stand still at these poses. Nothing is committed.
-pub(crate) fn springs_at(world: &mut World, bodies: &[Body], poses: &[Pose]) -> Result<Vec<Spring>, SlowError> {
+pub(crate) fn springs_at(
+    world: &mut World,
+    bodies: &[Body],
+    poses: &[Pose],
+) -> Result<Vec<Spring>, SlowError> {
     place(world, bodies, |index| (poses[index], Vector6::zeros()))?;
     world.evaluate()?;
     let listed = world.contacts_iter().zip(world.normal_tangents());

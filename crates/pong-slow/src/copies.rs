@@ -28,6 +28,8 @@ pub(crate) struct Copy {
     pub impulse: Vector6<f64>,
     /// Impulse of friction in this frame.
     pub friction: Vector6<f64>,
+    /// Work that friction has taken from the copies since the offset began, J: the share of this body.
+    pub rubbed: f64,
 }
 
 /// A point at which two copies touch at the end of the substeps, in the frames of both.
@@ -143,9 +145,12 @@ fn add_friction(world: &World, bodies: &[Body], copies: &mut [Copy], step: f64) 
     for contact in world.contacts_iter() {
         let (a, b) = groups(&contact);
         let push = contact.friction_force * step;
+        let taken = -push.dot(&contact.slip_velocity);
+        let share = if bodies[a].moves() && bodies[b].moves() { 0.5 } else { 1.0 };
         for (body, push) in [(a, push), (b, -push)] {
             let impulse = chart::of_force_at(bodies[body].axes, &copies[body].pose, &contact.point, &push);
             copies[body].friction += impulse;
+            copies[body].rubbed += share * taken;
         }
     }
 }
@@ -264,8 +269,9 @@ fn largest_eigenvalue(bodies: &[Body], rows: &[(Row, f64)]) -> f64 {
         })
         .collect();
     // Unlike numbers, so that no mode is missed by symmetry.
-    let mut z: Vec<Vector6<f64>> =
-        (0..bodies.len()).map(|i| Vector6::from_fn(|j, _| 1.0 + 0.37 * ((7 * i + 3 * j) % 5) as f64)).collect();
+    let mut z: Vec<Vector6<f64>> = (0..bodies.len())
+        .map(|i| Vector6::from_fn(|j, _| 1.0 + 0.37 * ((7 * i + 3 * j) % 5) as f64))
+        .collect();
     let mut eigenvalue = 0.0;
     for _ in 0..ITERATIONS {
         let norm = z.iter().map(Vector6::norm_squared).sum::<f64>().sqrt();

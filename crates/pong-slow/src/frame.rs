@@ -93,7 +93,8 @@ impl<'f> Frame<'f> {
         const LEAST: f64 = 1e-11;
         let mut best = 0.0;
         for (index, body) in self.bodies.iter().enumerate() {
-            let Some(kept) = self.memory.of(index, body.axes).filter(|_| body.axes == chart::Axes::Common) else {
+            let Some(kept) = self.memory.of(index, body.axes).filter(|_| body.axes == chart::Axes::Common)
+            else {
                 continue;
             };
             let (pose, velocity) = &self.given[index];
@@ -123,6 +124,7 @@ impl<'f> Frame<'f> {
                 velocity: body.velocity + body.root.velocity(&impulse),
                 impulse,
                 friction: Vector6::zeros(),
+                rubbed: kept.map_or(0.0, |kept| kept.unspent),
             }
         };
         self.bodies.iter().enumerate().map(start).collect()
@@ -168,11 +170,12 @@ impl<'f> Frame<'f> {
     /// Impulses, what is kept, and the wrenches.
     fn finish(mut self, world: &mut World, ends: Ends) -> Result<Computed, SlowError> {
         let mut impulses = vec![Vector6::zeros(); self.bodies.len()];
-        let mut keeps = vec![true; self.bodies.len()];
+        // What is kept of each copy: nothing, or its offset with this work of friction, J.
+        let mut keeps = vec![Some(0.0); self.bodies.len()];
         if self.report.status.unresolved {
             world.restore_state(self.block)?;
             self.implicit(world, &ends, &mut impulses)?;
-            keeps.fill(false);
+            keeps.fill(None);
         } else {
             self.near_copies(world, &ends, &mut impulses, &mut keeps)?;
         }
@@ -183,7 +186,12 @@ impl<'f> Frame<'f> {
     }
 
     /// Islands of what touches within the frame, or would touch where the bodies land with these impulses.
-    fn islands(&mut self, world: &mut World, ends: &Ends, impulses: &[Vector6<f64>]) -> Result<Vec<Island>, SlowError> {
+    fn islands(
+        &mut self,
+        world: &mut World,
+        ends: &Ends,
+        impulses: &[Vector6<f64>],
+    ) -> Result<Vec<Island>, SlowError> {
         let mut touched = ends.touched.clone();
         let landing = self.landing(impulses);
         self.report.evaluations += 1;
@@ -204,7 +212,7 @@ impl<'f> Frame<'f> {
         world: &mut World,
         ends: &Ends,
         impulses: &mut [Vector6<f64>],
-        keeps: &mut [bool],
+        keeps: &mut [Option<f64>],
     ) -> Result<(), SlowError> {
         for (impulse, copy) in impulses.iter_mut().zip(&ends.copies) {
             *impulse = copy.impulse;
@@ -216,7 +224,8 @@ impl<'f> Frame<'f> {
         let islands = self.islands(world, ends, impulses)?;
         let at_end: Vec<Pose> = ends.copies.iter().map(|copy| copy.pose).collect();
         let at_start: Vec<Pose> = self.bodies.iter().map(|body| body.leading).collect();
-        let (end, start) = (springs_at(world, &self.bodies, &at_end)?, springs_at(world, &self.bodies, &at_start)?);
+        let (end, start) =
+            (springs_at(world, &self.bodies, &at_end)?, springs_at(world, &self.bodies, &at_start)?);
         self.report.evaluations += 2;
         for island in &islands {
             let mut guard = Guard {
@@ -233,17 +242,23 @@ impl<'f> Frame<'f> {
             self.report.evaluations += guard.evaluations;
             self.report.status.energy_limited |= guarded.limited;
             let copy_open = !end.iter().any(|spring| crate::guard::touches(island, spring));
-            let dropped = copy_open && guarded.open && guarded.host <= guarded.copy + 1e-13 * guarded.copy.abs();
+            let dropped =
+                copy_open && guarded.open && guarded.host <= guarded.copy + 1e-13 * guarded.copy.abs();
             for (&body, impulse) in island.bodies.iter().zip(guarded.impulses) {
                 impulses[body] = impulse;
-                keeps[body] = !dropped;
+                keeps[body] = (!dropped).then_some(guarded.unspent / island.bodies.len() as f64);
             }
         }
         Ok(())
     }
 
     /// Impulses of one implicit step; the contact state follows to where the bodies land.
-    fn implicit(&mut self, world: &mut World, ends: &Ends, impulses: &mut [Vector6<f64>]) -> Result<(), SlowError> {
+    fn implicit(
+        &mut self,
+        world: &mut World,
+        ends: &Ends,
+        impulses: &mut [Vector6<f64>],
+    ) -> Result<(), SlowError> {
         for island in self.islands(world, ends, impulses)? {
             let held = vec![Vector6::zeros(); island.bodies.len()];
             let (bodies, length) = (&self.bodies[..], self.length);
@@ -254,24 +269,32 @@ impl<'f> Frame<'f> {
             island.bodies.iter().zip(found).for_each(|(&body, impulse)| impulses[body] = impulse);
         }
         let landing = self.landing(impulses);
-        place(world, &self.bodies, |index| (landing[index], self.bodies[index].velocity_after(&impulses[index], self.length)))?;
+        place(world, &self.bodies, |index| {
+            (landing[index], self.bodies[index].velocity_after(&impulses[index], self.length))
+        })?;
         world.step()?;
         Ok(())
     }
 
-    fn remember(&self, ends: &Ends, impulses: &[Vector6<f64>], keeps: &[bool]) -> Memory {
+    fn remember(&self, ends: &Ends, impulses: &[Vector6<f64>], keeps: &[Option<f64>]) -> Memory {
         let landing = self.landing(impulses);
         let keep = |(index, body): (usize, &Body)| {
             let copy = &ends.copies[index];
-            let is_kept = keeps[index] && body.moves();
+            let unspent = keeps[index].filter(|_| body.moves());
+            let is_kept = unspent.is_some();
             let mut queue = self.queues[index].clone();
             queue.push_back(impulses[index]);
             queue.truncate(self.settings.delay_frames as usize + 1);
             queue.pop_front();
             KeptBody {
                 axes: body.axes,
-                offset: if is_kept { chart::offset(body.axes, &landing[index], &copy.pose) } else { Pose::identity() },
+                offset: if is_kept {
+                    chart::offset(body.axes, &landing[index], &copy.pose)
+                } else {
+                    Pose::identity()
+                },
                 held_back: if is_kept { copy.impulse - impulses[index] } else { Vector6::zeros() },
+                unspent: unspent.unwrap_or(0.0),
                 predicted: landing[index],
                 predicted_velocity: body.velocity_after(&impulses[index], self.length),
                 given: self.given[index].0,

@@ -1,5 +1,6 @@
 //! Limit of the energy of the host's body: not above that of its copy, or of an implicit step, whichever is more.
 //!
+//! A copy that slid further than the host's body has lost more to friction: that much more energy the host may have.
 //! The copies follow a passive motion, and an implicit step never raises the energy of convex springs. So neither host nor
 //! copy ever has more energy than at the start (docs/theory.md, 10).
 
@@ -42,6 +43,8 @@ pub(crate) struct Guarded {
     /// Energies where the host's bodies land, and at the end of the copies, J.
     pub host: f64,
     pub copy: f64,
+    /// Work of friction that the copies have lost and the host's bodies have not, J.
+    pub unspent: f64,
 }
 
 /// Energy with the size of its terms, J.
@@ -49,6 +52,10 @@ pub(crate) struct Guarded {
 struct Energy {
     total: f64,
     size: f64,
+    /// Work that the mean friction of the copies takes from the host's bodies in the frame, J; not negative.
+    rubbed: f64,
+    /// True if nothing of the island touches.
+    open: bool,
 }
 
 impl Energy {
@@ -57,18 +64,39 @@ impl Energy {
     }
 }
 
+/// Energies up to which a landing is allowed, J.
+struct Bound {
+    /// Without regard to friction.
+    plain: f64,
+    /// With the work of friction in the frame.
+    with_friction: f64,
+}
+
+impl Bound {
+    fn allows(&self, energy: Energy) -> bool {
+        let spent = Energy { total: energy.total + energy.rubbed, ..energy };
+        energy.is_within(self.plain) || spent.is_within(self.with_friction)
+    }
+}
+
 impl Guard<'_> {
     /// The wanted impulses, or the nearest on the way from them to an implicit step that have an allowed energy.
     pub fn limit(&mut self, world: &mut World, wanted: Vec<Vector6<f64>>) -> Result<Guarded, SlowError> {
         let copy = self.copy_energy();
-        let (energy, open) = self.landing(world, &wanted)?;
-        if energy.is_within(copy) {
-            return Ok(Guarded { impulses: wanted, limited: false, open, host: energy.total, copy });
+        let taken: f64 = self.island.bodies.iter().map(|&body| self.copies[body].rubbed).sum();
+        let mut bound = Bound { plain: copy, with_friction: copy + taken.max(0.0) };
+        let energy = self.landing(world, &wanted)?;
+        let guarded = |impulses, energy: Energy, limited| {
+            let unspent = (taken - energy.rubbed).max(0.0);
+            Guarded { impulses, limited, open: energy.open, host: energy.total, copy, unspent }
+        };
+        if bound.allows(energy) {
+            return Ok(guarded(wanted, energy, false));
         }
         let (safe, safe_energy) = self.safe(world, &wanted, copy.max(self.start_energy()))?;
-        let bound = copy.max(safe_energy);
-        if energy.is_within(bound) {
-            return Ok(Guarded { impulses: wanted, limited: false, open, host: energy.total, copy });
+        bound.plain = copy.max(safe_energy);
+        if bound.allows(energy) {
+            return Ok(guarded(wanted, energy, false));
         }
         let between = |share: f64| -> Vec<Vector6<f64>> {
             safe.iter().zip(&wanted).map(|(safe, wanted)| safe + (wanted - safe) * share).collect()
@@ -76,16 +104,15 @@ impl Guard<'_> {
         let (mut inside, mut outside) = (0.0, 1.0);
         for _ in 0..HALVINGS {
             let middle = 0.5 * (inside + outside);
-            let (energy, _) = self.landing(world, &between(middle))?;
-            if energy.is_within(bound) {
+            if bound.allows(self.landing(world, &between(middle))?) {
                 inside = middle;
             } else {
                 outside = middle;
             }
         }
         let impulses = between(inside);
-        let (energy, open) = self.landing(world, &impulses)?;
-        Ok(Guarded { impulses, limited: true, open, host: energy.total, copy })
+        let energy = self.landing(world, &impulses)?;
+        Ok(guarded(impulses, energy, true))
     }
 
     /// An implicit step with the friction of the copies held or, if that exceeds the bound, without friction.
@@ -100,14 +127,14 @@ impl Guard<'_> {
         let rubs = friction.iter().any(|impulse| impulse.amax() > 0.0);
         if rubs {
             let impulses = self.implicit(world, &friction, guess)?;
-            let (energy, _) = self.landing(world, &impulses)?;
+            let energy = self.landing(world, &impulses)?;
             if energy.is_within(bound) {
                 return Ok((impulses, energy.total));
             }
         }
         let none = vec![Vector6::zeros(); guess.len()];
         let impulses = self.implicit(world, &none, guess)?;
-        let (energy, _) = self.landing(world, &impulses)?;
+        let energy = self.landing(world, &impulses)?;
         Ok((impulses, energy.total))
     }
 
@@ -124,9 +151,9 @@ impl Guard<'_> {
         Ok(impulses)
     }
 
-    /// Energy where the bodies land with these impulses, and whether nothing touches there.
-    fn landing(&mut self, world: &mut World, impulses: &[Vector6<f64>]) -> Result<(Energy, bool), SlowError> {
-        let (mut total, mut size) = (0.0, 0.0);
+    /// Energy where the bodies land with these impulses.
+    fn landing(&mut self, world: &mut World, impulses: &[Vector6<f64>]) -> Result<Energy, SlowError> {
+        let (mut total, mut size, mut rubbed) = (0.0, 0.0, 0.0);
         for (place, &body) in self.island.bodies.iter().enumerate() {
             let one = &self.bodies[body];
             let velocity = one.velocity_after(&impulses[place], self.length);
@@ -135,12 +162,13 @@ impl Guard<'_> {
             let (kinetic, potential) = (one.kinetic(&velocity), one.potential(&by));
             total += kinetic + potential;
             size += kinetic + potential.abs();
+            rubbed -= self.copies[body].friction.dot(&velocity);
         }
         self.evaluations += 1;
         let springs = springs_at(world, self.bodies, &self.poses)?;
         let stored = stored(self.island, &springs);
         let open = !springs.iter().any(|spring| touches(self.island, spring));
-        Ok((Energy { total: total + stored, size: size + stored }, open))
+        Ok(Energy { total: total + stored, size: size + stored, rubbed: rubbed.max(0.0), open })
     }
 
     fn copy_energy(&self) -> f64 {

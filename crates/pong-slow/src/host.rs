@@ -187,7 +187,11 @@ impl SlowHost {
 }
 
 /// What the host did otherwise than predicted.
-pub(crate) fn inserted(world: &mut World, memory: &Memory, bodies: &[Body]) -> Result<Vec<GroupReport>, SlowError> {
+pub(crate) fn inserted(
+    world: &mut World,
+    memory: &Memory,
+    bodies: &[Body],
+) -> Result<Vec<GroupReport>, SlowError> {
     let mut reports = Vec::with_capacity(bodies.len());
     let mut predicted = Vec::with_capacity(bodies.len());
     let mut differs = false;

@@ -29,7 +29,11 @@ pub(crate) struct Step<'s> {
 
 impl Step<'_> {
     /// Impulses of the step, from a first guess of them.
-    pub fn solve(&mut self, world: &mut World, guess: &[Vector6<f64>]) -> Result<Vec<Vector6<f64>>, SlowError> {
+    pub fn solve(
+        &mut self,
+        world: &mut World,
+        guess: &[Vector6<f64>],
+    ) -> Result<Vec<Vector6<f64>>, SlowError> {
         let mut z = DVector::zeros(self.island.size());
         for (place, &body) in self.island.bodies.iter().enumerate() {
             let by = guess[place] - self.held[place];
@@ -96,7 +100,8 @@ impl Step<'_> {
     fn impulses(&self, springs: &[Spring]) -> Vec<Vector6<f64>> {
         let mut impulses = self.held.to_vec();
         for spring in springs {
-            for (body, on) in [(spring.normal.a, &spring.normal.on_a), (spring.normal.b, &spring.normal.on_b)] {
+            for (body, on) in [(spring.normal.a, &spring.normal.on_a), (spring.normal.b, &spring.normal.on_b)]
+            {
                 if let Some(place) = self.island.place(body) {
                     impulses[place] += on * (self.length * spring.force);
                 }

@@ -57,7 +57,10 @@ pub(crate) fn require_frame(length: f64) -> Result<(), SlowError> {
 }
 
 /// Inputs in the order of the movable groups of the world: each group once, all values usable.
-pub(crate) fn in_order<'i>(world: &World, inputs: &'i [GroupInput]) -> Result<Vec<&'i GroupInput>, SlowError> {
+pub(crate) fn in_order<'i>(
+    world: &World,
+    inputs: &'i [GroupInput],
+) -> Result<Vec<&'i GroupInput>, SlowError> {
     let inspection = world.inspect();
     let count = inspection.group_count();
     let mut found: Vec<Option<&GroupInput>> = vec![None; count];
@@ -113,7 +116,8 @@ pub(crate) fn root_of(dynamics: &Dynamics, rotation: &Mat3, name: &str) -> Resul
             let Some(inverse) = inverse_inertia(&inertia) else {
                 return refused(
                     "inertia",
-                    "it is not symmetric with positive moments; give the tensor about the mass centre".to_owned(),
+                    "it is not symmetric with positive moments; give the tensor about the mass centre"
+                        .to_owned(),
                 );
             };
             let mut mobility = Matrix6::zeros();
@@ -149,13 +153,18 @@ fn fault_of_mobility(mobility: &Matrix6<f64>) -> Option<String> {
     let scale = mobility.diagonal().map(|x| if x > 0.0 { 1.0 / x.sqrt() } else { 0.0 });
     let scaled = Matrix6::from_fn(|i, j| mobility[(i, j)] * scale[i] * scale[j]);
     if (scaled - scaled.transpose()).amax() > TOLERANCE {
-        return Some("it is not symmetric; give velocity per impulse about one point along one set of axes".to_owned());
+        return Some(
+            "it is not symmetric; give velocity per impulse about one point along one set of axes".to_owned(),
+        );
     }
     let negative = mobility.diagonal().iter().any(|x| *x < 0.0);
     let outside = (0..6).any(|i| (0..6).any(|j| scale[i] * scale[j] == 0.0 && mobility[(i, j)] != 0.0));
     let least = SymmetricEigen::new(scaled).eigenvalues.min();
     if negative || outside || least < -TOLERANCE {
-        return Some("an impulse would move the body against itself; give a mobility without negative eigenvalues".to_owned());
+        return Some(
+            "an impulse would move the body against itself; give a mobility without negative eigenvalues"
+                .to_owned(),
+        );
     }
     if mobility.amax() == 0.0 {
         return Some("it is zero; give `Prescribed` for a body that contact does not move".to_owned());

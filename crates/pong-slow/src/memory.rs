@@ -13,6 +13,8 @@ pub(crate) struct KeptBody {
     pub offset: Pose,
     /// Impulse that the copy got and the host's body did not.
     pub held_back: Vector6<f64>,
+    /// Work of friction, J, that the copy has lost and the host's body has not: the copy slid further.
+    pub unspent: f64,
     /// Predicted leading pose, and velocity, at the next call, carried forward by the delay.
     pub predicted: Pose,
     pub predicted_velocity: Vector6<f64>,

@@ -50,9 +50,8 @@ fn pulls<'t>(bodies: &[Body], poses: &[Pose], touches: impl Iterator<Item = &'t 
 
 /// Impulses over the frame for the bodies of an island, in their order, that lead to the nearest velocity.
 pub(crate) fn project(bodies: &[Body], island: &Island, ends: &Ends, length: f64) -> Vec<Vector6<f64>> {
-    let within = |touch: &&Touch| {
-        island.place(touch.bodies.0).is_some() || island.place(touch.bodies.1).is_some()
-    };
+    let within =
+        |touch: &&Touch| island.place(touch.bodies.0).is_some() || island.place(touch.bodies.1).is_some();
     let reached: Vec<Vector6<f64>> = island.bodies.iter().map(|&body| ends.copies[body].impulse).collect();
     if ends.touches.iter().filter(within).count() == 0 {
         return reached;

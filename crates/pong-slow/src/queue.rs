@@ -8,7 +8,12 @@ use std::collections::VecDeque;
 
 /// Impulses that the host will apply before the one that is computed now, the oldest first; zero before the first
 /// frame.
-pub(crate) fn under_way(memory: &Memory, index: usize, body: &Body, delay_frames: u32) -> VecDeque<Vector6<f64>> {
+pub(crate) fn under_way(
+    memory: &Memory,
+    index: usize,
+    body: &Body,
+    delay_frames: u32,
+) -> VecDeque<Vector6<f64>> {
     let length = delay_frames as usize;
     let kept = memory.of(index, body.axes).filter(|kept| kept.queue.len() == length);
     kept.map_or_else(|| VecDeque::from(vec![Vector6::zeros(); length]), |kept| kept.queue.clone())

@@ -31,15 +31,19 @@ impl Settings {
 
     /// Refuses settings outside their ranges.
     pub(crate) fn require_valid(&self) -> Result<(), SlowError> {
-        let refused = |what: &str, cause: String| {
-            Err(SlowError::BadSetting { what: what.to_owned(), cause })
-        };
+        let refused = |what: &str, cause: String| Err(SlowError::BadSetting { what: what.to_owned(), cause });
         if !(0.0..=1.0).contains(&self.theta) {
-            let cause = format!("it is {}; give 1 for semi-implicit Euler, 0.5 for Runge-Kutta, 0 for explicit Euler", self.theta);
+            let cause = format!(
+                "it is {}; give 1 for semi-implicit Euler, 0.5 for Runge-Kutta, 0 for explicit Euler",
+                self.theta
+            );
             return refused("theta", cause);
         }
         if !(2.0..=1e6).contains(&self.substeps_per_radian) {
-            return refused("substeps_per_radian", format!("it is {}; give 2 to 1e6", self.substeps_per_radian));
+            return refused(
+                "substeps_per_radian",
+                format!("it is {}; give 2 to 1e6", self.substeps_per_radian),
+            );
         }
         if self.substeps_max == 0 {
             return refused("substeps_max", "it is 0; give at least 1".to_owned());

@@ -1,10 +1,13 @@
 //! A host that calls once in a long frame, with free bodies.
 
 use nalgebra::{UnitQuaternion, Vector3};
+use pong_engine::WorldBuilder;
 use pong_engine::{Config, InterfaceId, State, World};
 use pong_geometry::{Pose, Quat, Twist, Vec3};
+use pong_model::Extensions;
 use pong_slow::{Dynamics, GroupInput, Report, Settings, SlowHost};
-use pong_testkit::worlds::paired_with_first;
+use std::collections::VecDeque;
+use std::sync::Arc;
 
 /// A body of the host; its mass centre is the group's origin.
 #[derive(Clone, Debug)]
@@ -67,9 +70,27 @@ pub struct Rig {
     /// Masses given, over the true ones.
     pub told: f64,
     /// Impulses that wait, for a host that is late.
-    pub waiting: std::collections::VecDeque<Vec<(Vec3, Vec3)>>,
+    pub waiting: VecDeque<Vec<(Vec3, Vec3)>>,
     pub late: usize,
     pub gravity_told: bool,
+}
+
+/// A sealed world of Objects `o0`, `o1`, …, each paired with each other, and their roots.
+pub fn all_paired(config: Config, models: &[&str]) -> (World, Vec<InterfaceId>) {
+    let mut builder = WorldBuilder::new(config);
+    let mut objects = Vec::new();
+    for (i, text) in models.iter().enumerate() {
+        let model = pong_model::parse(text, "test.ron", None, &Extensions::new());
+        let model = builder.add_model(Arc::new(model.unwrap_or_else(|errors| panic!("{errors}\n{text}"))));
+        let object = builder.create_object(model, &format!("o{i}")).unwrap();
+        for other in &objects {
+            builder.pair(*other, object).unwrap();
+        }
+        objects.push(object);
+    }
+    let roots = objects.iter().map(|object| builder.scene().interface(*object, "").unwrap()).collect();
+    let (world, _) = builder.seal().unwrap_or_else(|error| panic!("{error}"));
+    (world, roots)
 }
 
 pub fn settings(theta: f64, per_radian: f64) -> Settings {
@@ -78,11 +99,17 @@ pub fn settings(theta: f64, per_radian: f64) -> Settings {
 
 impl Rig {
     pub fn new(models: &[&str], bodies: Vec<Body>, settings: Settings, frame: f64) -> Self {
-        let (world, _, interfaces) = paired_with_first(Config::default(), models);
+        let (world, interfaces) = all_paired(Config::default(), models);
         Self::of(&world, interfaces, bodies, settings, frame)
     }
 
-    pub fn of(world: &World, interfaces: Vec<InterfaceId>, bodies: Vec<Body>, settings: Settings, frame: f64) -> Self {
+    pub fn of(
+        world: &World,
+        interfaces: Vec<InterfaceId>,
+        bodies: Vec<Body>,
+        settings: Settings,
+        frame: f64,
+    ) -> Self {
         let slow = SlowHost::new(world, settings).unwrap();
         let (theta, late) = (settings.theta, settings.delay_frames as usize);
         let waiting = Default::default();
