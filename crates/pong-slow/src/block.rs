@@ -1,4 +1,4 @@
-//! What is kept between frames as bytes: one flat block without pointers.
+//! Memory between frames as bytes: one flat block without pointers.
 //!
 //! | bytes | are |
 //! |---|---|

@@ -17,9 +17,9 @@ use pong_geometry::{Pose, Quat, Vec3};
 /// Axes of a chart.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Axes {
-    /// Those of the common frame.
+    /// Axes of the common frame.
     Common,
-    /// Those of the group.
+    /// Axes of the group.
     Group,
 }
 

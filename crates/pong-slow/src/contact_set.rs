@@ -45,6 +45,16 @@ pub(crate) struct Spring {
     pub energy: f64,
 }
 
+/// Normal, and two unit vectors across it.
+pub(crate) fn axes_of(normal: &Vec3) -> [Vec3; 3] {
+    let least = normal.iamin();
+    let mut axis = Vec3::zeros();
+    axis[least] = 1.0;
+    let across = normal.cross(&axis);
+    let across = across / across.norm().max(f64::MIN_POSITIVE);
+    [*normal, across, normal.cross(&across)]
+}
+
 /// Indices of the movable groups of a contact.
 pub(crate) fn groups(contact: &Contact) -> (usize, usize) {
     (contact.a.interface.index(), contact.b.interface.index())

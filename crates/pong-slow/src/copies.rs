@@ -2,7 +2,7 @@
 
 use crate::body::Body;
 use crate::chart;
-use crate::contact_set::{Row, groups, place};
+use crate::contact_set::{Row, axes_of, groups, place};
 use crate::error::SlowError;
 use nalgebra::Vector6;
 use pong_engine::{StatusBits, World};
@@ -177,7 +177,7 @@ fn touches(world: &World, copies: &[Copy]) -> Vec<Touch> {
     listed.map(touch).filter(|touch| touch.stiffness[0] > 0.0).collect()
 }
 
-/// What was seen of the contacts so far.
+/// Contacts seen in the substeps so far.
 #[derive(Default)]
 struct Seen {
     touched: Vec<(usize, usize)>,
@@ -248,7 +248,7 @@ fn rate_square(world: &World, bodies: &[Body], copies: &[Copy]) -> f64 {
         }
         damping_time = damping_time.max(c / k);
         let across = if contact.friction_force == Vec3::zeros() { 0.0 } else { STICKING_SHARE * k };
-        for (direction, k) in crate::projection::axes_of(&contact.normal).iter().zip([k, across, across]) {
+        for (direction, k) in axes_of(&contact.normal).iter().zip([k, across, across]) {
             if k > 0.0 {
                 rows.push((Row::new(bodies, &poses, groups(&contact), [&contact.point; 2], direction), k));
             }

@@ -10,6 +10,7 @@ use crate::implicit::Step;
 use crate::input::{GroupInput, in_order, require_frame};
 use crate::island::{Island, islands};
 use crate::memory::{KeptBody, Memory};
+use crate::prediction::inserted;
 use crate::projection::project;
 use crate::queue::{carry_forward, under_way};
 use crate::report::{FrameStatus, Report};
@@ -59,9 +60,8 @@ pub(crate) fn compute(
     require_frame(length)?;
     let inputs = in_order(world, inputs)?;
     let mut frame = Frame::new(world, settings, (memory, block), length, &inputs)?;
-    let inserted = crate::host::inserted(world, memory, &frame.bodies)?;
-    frame.report.inserted = inserted.iter().map(|group| group.inserted).sum();
-    frame.report.groups = inserted;
+    frame.report.groups = inserted(world, memory, &frame.bodies)?;
+    frame.report.inserted = frame.report.groups.iter().map(|group| group.inserted).sum();
     frame.measure_theta();
     let ends = frame.follow(world)?;
     frame.finish(world, ends)

@@ -26,6 +26,7 @@ pub(crate) struct Guard<'g> {
     pub copies: &'g [Copy],
     /// Energy of the contacts of the copies at the end of the substeps, and of the host's bodies at the start, J.
     pub stored: [f64; 2],
+    /// Length of the frame, s.
     pub length: f64,
     /// Landing poses of all bodies.
     pub poses: Vec<Pose>,
@@ -40,8 +41,9 @@ pub(crate) struct Guarded {
     pub limited: bool,
     /// True if no body of the island touches anything where it lands.
     pub open: bool,
-    /// Energies where the host's bodies land, and at the end of the copies, J.
+    /// Energy where the host's bodies land, J.
     pub host: f64,
+    /// Energy at the end of the copies, J.
     pub copy: f64,
     /// Work of friction that the copies have lost and the host's bodies have not, J.
     pub unspent: f64,

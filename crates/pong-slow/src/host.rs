@@ -1,20 +1,14 @@
 //! The calls of a host.
 
 use crate::block;
-use crate::body::Body;
-use crate::chart::{angular, displacement, linear};
-use crate::contact_set::{Spring, springs_at};
 use crate::error::SlowError;
 use crate::frame::{compute, plain_status};
 use crate::input::GroupInput;
 use crate::memory::Memory;
-use crate::report::{GroupReport, Report};
+use crate::report::Report;
 use crate::settings::Settings;
 use pong_engine::{InterfaceId, State, World};
 use pong_geometry::{Pose, Wrench};
-
-/// Differences below this share of the sizes are rounding.
-const ROUNDING: f64 = 1e-12;
 
 /// Contact for a host that calls once in a long frame: a world of its own, with the same ids as the world it was made
 /// from, that follows copies of the bodies.
@@ -30,7 +24,7 @@ pub struct SlowHost {
     orientations: Vec<pong_geometry::Quat>,
 }
 
-/// What a commit writes.
+/// Result of an evaluation, for the commit.
 enum Pending {
     Slow(Memory),
     Plain,
@@ -167,12 +161,12 @@ impl SlowHost {
         Ok(Wrench { force: back * common.force, moment: back * common.moment })
     }
 
-    /// What is kept between frames, the contact state included, as bytes.
+    /// Memory between frames, with the contact state, as bytes.
     pub fn save_state(&self) -> Vec<u8> {
         block::write(&self.memory, &self.block, self.world.scene_hash())
     }
 
-    /// Restores what [`save_state`](Self::save_state) gave, in a world of the same scene.
+    /// Restores bytes that [`save_state`](Self::save_state) returned, in a world of the same scene.
     ///
     /// # Errors
     /// [`SlowError::BadState`] or [`SlowError::Engine`] for bytes that are damaged or of another scene; nothing is
@@ -183,54 +177,5 @@ impl SlowHost {
         self.world.restore_state(&contact)?;
         (self.memory, self.block, self.pending) = (memory, contact, None);
         Ok(())
-    }
-}
-
-/// What the host did otherwise than predicted.
-pub(crate) fn inserted(
-    world: &mut World,
-    memory: &Memory,
-    bodies: &[Body],
-) -> Result<Vec<GroupReport>, SlowError> {
-    let mut reports = Vec::with_capacity(bodies.len());
-    let mut predicted = Vec::with_capacity(bodies.len());
-    let mut differs = false;
-    for (index, body) in bodies.iter().enumerate() {
-        let kept = memory.of(index, body.axes);
-        let (pose, velocity) =
-            kept.map_or((body.leading, body.velocity), |kept| (kept.predicted, kept.predicted_velocity));
-        let by = displacement(body.axes, &pose, &body.leading);
-        let gained = body.velocity - velocity;
-        let size = body.leading.position.norm() + memory.length * linear(&body.velocity).norm();
-        differs |= linear(&by).norm() > ROUNDING * size || angular(&by).norm() > ROUNDING;
-        let energy = body.kinetic(&body.velocity) - body.kinetic(&velocity) + body.potential(&by);
-        predicted.push(pose);
-        reports.push(GroupReport {
-            interface: body.interface,
-            position: linear(&by).into(),
-            rotation: angular(&by).into(),
-            linear_velocity: linear(&gained).into(),
-            angular_velocity: angular(&gained).into(),
-            inserted: energy,
-        });
-    }
-    if differs {
-        let found: Vec<Pose> = bodies.iter().map(|body| body.leading).collect();
-        for (poses, sign) in [(&found, 1.0), (&predicted, -1.0)] {
-            for spring in springs_at(world, bodies, poses)? {
-                share(&mut reports, bodies, &spring, sign);
-            }
-        }
-    }
-    Ok(reports)
-}
-
-fn share(reports: &mut [GroupReport], bodies: &[Body], spring: &Spring, sign: f64) {
-    let (a, b) = (spring.normal.a, spring.normal.b);
-    let share = if bodies[a].moves() && bodies[b].moves() { 0.5 } else { 1.0 };
-    for body in [a, b] {
-        if bodies[body].moves() {
-            reports[body].inserted += sign * share * spring.energy;
-        }
     }
 }

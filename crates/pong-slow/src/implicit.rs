@@ -19,6 +19,7 @@ const RESIDUAL: f64 = 1e-13;
 pub(crate) struct Step<'s> {
     pub bodies: &'s [Body],
     pub island: &'s Island,
+    /// Length of the frame, s.
     pub length: f64,
     /// Impulses that act besides the normal forces, for the bodies of the island.
     pub held: &'s [Vector6<f64>],

@@ -9,7 +9,7 @@ use pong_geometry::{Mat3, Vec3};
 /// Relative tolerance of the checks for symmetry and definiteness.
 const TOLERANCE: f64 = 1e-9;
 
-/// How a movable group answers to an impulse.
+/// Answer of a movable group to an impulse.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Dynamics {
     /// A free rigid body. Its wrench is to be held along common axes.

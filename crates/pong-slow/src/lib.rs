@@ -19,7 +19,7 @@
 //! | `guard.rs` | limit of the energy |
 //! | `memory.rs`, `block.rs` | what is kept between frames, and as bytes |
 //! | `queue.rs` | wrenches on their way to a host that applies them late |
-//! | `report.rs` | what the host did otherwise than predicted |
+//! | `prediction.rs`, `report.rs` | what the host did otherwise than predicted |
 //! | `host.rs`, `frame.rs` | the calls; one frame |
 
 #![forbid(unsafe_code)]
@@ -38,6 +38,7 @@ mod input;
 mod island;
 mod memory;
 mod mobility;
+mod prediction;
 mod projection;
 mod queue;
 mod report;

@@ -1,11 +1,11 @@
-//! What is kept between frames.
+//! Memory between frames.
 
 use crate::chart::Axes;
 use nalgebra::Vector6;
 use pong_geometry::Pose;
 use std::collections::VecDeque;
 
-/// What is kept of one body.
+/// Memory of one body.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct KeptBody {
     pub axes: Axes,
@@ -25,7 +25,7 @@ pub(crate) struct KeptBody {
     pub queue: VecDeque<Vector6<f64>>,
 }
 
-/// What is kept between frames, besides the contact state of the engine.
+/// Memory between frames, besides the contact state of the engine.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Memory {
     /// Length of the last frame, s.
@@ -37,7 +37,7 @@ pub(crate) struct Memory {
 }
 
 impl Memory {
-    /// What is kept of a body in this chart, if anything is.
+    /// Memory of a body in this chart; `None` if there is none.
     pub fn of(&self, body: usize, axes: Axes) -> Option<&KeptBody> {
         self.bodies.get(body).filter(|kept| kept.axes == axes)
     }

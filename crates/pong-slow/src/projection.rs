@@ -3,7 +3,7 @@
 //! the velocity u (docs/theory.md, 10).
 
 use crate::body::Body;
-use crate::contact_set::Row;
+use crate::contact_set::{Row, axes_of};
 use crate::copies::{Ends, Touch};
 use crate::island::Island;
 use nalgebra::{DMatrix, DVector, Vector6};
@@ -11,16 +11,6 @@ use pong_geometry::{Pose, Vec3};
 
 /// Linearisations; two are enough for a body that turns by 0.1 rad.
 const ITERATIONS: usize = 4;
-
-/// Normal, and two unit vectors across it.
-pub(crate) fn axes_of(normal: &Vec3) -> [Vec3; 3] {
-    let least = normal.iamin();
-    let mut axis = Vec3::zeros();
-    axis[least] = 1.0;
-    let across = normal.cross(&axis);
-    let across = across / across.norm().max(f64::MIN_POSITIVE);
-    [*normal, across, normal.cross(&across)]
-}
 
 /// A spring that pulls two points of a contact together.
 struct Pull {

@@ -2,7 +2,7 @@
 
 use pong_engine::{InterfaceId, StatusBits};
 
-/// What a frame says of itself.
+/// Warnings of a frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct FrameStatus {
     /// The contacts needed more substeps than [`Settings::substeps_max`](crate::Settings::substeps_max).
@@ -51,9 +51,9 @@ pub struct Report {
     pub evaluations: u32,
     /// Largest rate of the contacts in the frame, rad/s; 0 if nothing touched.
     pub rate: f64,
-    /// What the frame says of itself.
+    /// Warnings of the frame.
     pub status: FrameStatus,
-    /// θ measured from the motion of the frame before, if it had an acceleration.
+    /// Position rule θ, 0…1, dimensionless, as the motion of the last frame shows it; `None` without acceleration.
     pub theta_measured: Option<f64>,
     /// Sum of the inserted energies, J.
     pub inserted: f64,

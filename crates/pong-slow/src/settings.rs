@@ -8,7 +8,7 @@ pub struct Settings {
     /// Position rule θ of the host, 0…1, dimensionless: x₁ = x₀ + T·v₀ + θ·T²·a. It is 1 for semi-implicit Euler, ½
     /// for Runge-Kutta with the wrench held or an exact motion under a held wrench, 0 for explicit Euler.
     pub theta: f64,
-    /// Substeps per radian of the fastest contact vibration, dimensionless; at least 2. At 12 a rebound without
+    /// Substeps per radian of the fastest contact vibration, 1/rad; at least 2. At 12 a rebound without
     /// damping is right to 1e-3, at 40 to 2e-4.
     pub substeps_per_radian: f64,
     /// Largest number of substeps in a frame, at least 1. A frame that needs more takes this many and says so

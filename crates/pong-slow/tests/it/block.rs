@@ -98,7 +98,7 @@ fn a_slide_stops_at_its_place_and_rests() {
     }
 }
 
-/// The same in steps of 10 µs, semi-implicit.
+/// Place after a run in steps of 10 µs, semi-implicit.
 fn in_short_steps(k: f64, zeta: f64, mut body: Body) -> Vec3 {
     let models = models(k, zeta);
     let (mut world, interfaces) = all_paired(Config::default(), &[&models[0], &models[1]]);
