@@ -21,6 +21,7 @@ ARROWS = {
     "pong": {"pong-geometry", "pong-model", "pong-engine", "pong-threads"},
     "pong-advise": {"pong-geometry", "pong-model", "pong-engine"},
     "pong-executive": {"pong-advise", "pong-geometry", "pong-model", "pong-engine"},
+    "pong-slow": {"pong-geometry", "pong-model", "pong-engine"},
     "pong-record": {"pong-arena", "pong-geometry", "pong-model", "pong-engine"},
     "pong-verify": {"pong-testkit", "pong-report", "pong-geometry", "pong-model", "pong-engine", "pong-executive"},
     "pong-report": {"pong-model"},
