@@ -4,6 +4,7 @@ use super::friction::{FrictionSlopes, Rubbing};
 use super::moves::{Moves, displacement, plane_axes};
 use crate::frame::FrameContact;
 use crate::frame::input::PairContext;
+use crate::frame::input::moving_surfaces::MovingPlace;
 use crate::law::normal_tangent;
 use crate::state::ContactRecord;
 use nalgebra::{Matrix3x6, RowVector6, SMatrix};
@@ -63,10 +64,24 @@ impl Moving<'_> {
             + padded(&self.weight) * (contact.normal_force / found.weight);
         let mut force = normal * pressed + padded(&moves.normal) * contact.normal_force;
         if contact.normal_force > 0.0 {
-            let slip_velocity = of_velocity + padded(&moves.normal) * contact.rate;
+            let mut slip_velocity = of_velocity + padded(&moves.normal) * contact.rate;
+            if let Some(surfaces) = context.surfaces.motions() {
+                let place = self.place(&point);
+                slip_velocity += padded(&surfaces.velocity_slopes(context.motion, &place));
+            }
             force += self.friction_slopes(context, &point, (&pressed, &slip_velocity))?;
         }
         Some(ContactSlopes { force, point })
+    }
+
+    /// The contact point and its normal, with their derivatives.
+    fn place<'p>(&'p self, point: &'p Matrix3x6<f64>) -> MovingPlace<'p> {
+        MovingPlace {
+            point_b: &self.contact.point_b,
+            normal_b: &self.contact.found.normal_b,
+            point_slopes: point,
+            normal_slopes: &self.moves.normal,
+        }
     }
 
     /// Derivatives of the relative velocity at the contact point.
@@ -149,8 +164,14 @@ impl Moving<'_> {
         let normal = found.normal_b;
         let approach = -normal.dot(&displaced);
         let of_approach = -(displaced.transpose() * moves.normal) - normal.transpose() * of_displaced;
-        let across = displaced + normal * approach;
-        let of_across = of_displaced + moves.normal * approach + normal * of_approach;
+        let mut across = displaced + normal * approach;
+        let mut of_across = of_displaced + moves.normal * approach + normal * of_approach;
+        if let Some(surfaces) = context.surfaces.motions() {
+            let earlier = self.record.map(|record| (record.point_b, record.normal_b));
+            let motions = (context.motion, since);
+            across += surfaces.travel(motions, earlier, &contact.point_b, &normal);
+            of_across += surfaces.travel_slopes(motions, earlier, &self.place(point));
+        }
         if self.record.is_some() || approach <= found.depth {
             return (across, of_across);
         }

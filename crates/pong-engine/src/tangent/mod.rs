@@ -45,8 +45,6 @@ pub(crate) enum Missing {
     Solids,
     /// Rolling or spinning resistance.
     Resistance,
-    /// A surface that moves along itself.
-    MovingSurface,
     /// Shapes whose contact has no unique derivative.
     Shapes,
 }
@@ -159,9 +157,6 @@ impl<'a> Frame<'a> {
         let props = self.context.props(&contact.found);
         if props.has_resistance() {
             return unknown(Missing::Resistance);
-        }
-        if self.context.surfaces.motions().is_some() {
-            return unknown(Missing::MovingSurface);
         }
         if matches!(props.normal, NormalProps::Custom { .. })
             || matches!(props.friction, FrictionProps::Custom { .. })

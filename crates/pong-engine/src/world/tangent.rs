@@ -66,9 +66,6 @@ impl World {
             Missing::Resistance => {
                 "resists rolling or spinning; its derivatives are not known in closed form"
             }
-            Missing::MovingSurface => {
-                "has a surface that moves along itself; its derivatives are not known in closed form"
-            }
             Missing::Shapes => {
                 "has no unique derivative: both shapes are flat or parallel there, or A is a ray"
             }
