@@ -15,7 +15,7 @@ use pong_geometry::{Mat3, Vec3};
 /// Variables of a contact, in B's frame: u and φ of the relative pose (3 and 3, at B's origin), and the relative
 /// velocity at the contact point (3).
 pub(super) const VARIABLES: usize = 9;
-type Row = SMatrix<f64, 1, VARIABLES>;
+pub(super) type Row = SMatrix<f64, 1, VARIABLES>;
 type Rows3 = SMatrix<f64, 3, VARIABLES>;
 
 /// A contact and how it moves.
@@ -36,6 +36,8 @@ pub(super) struct Moving<'a> {
 pub(super) struct ContactSlopes {
     pub force: Rows3,
     pub point: Matrix3x6<f64>,
+    /// Normal force.
+    pub pressed: Row,
 }
 
 /// Columns of (u, φ) in the columns of all variables.
@@ -71,7 +73,7 @@ impl Moving<'_> {
             }
             force += self.friction_slopes(context, &point, (&pressed, &slip_velocity))?;
         }
-        Some(ContactSlopes { force, point })
+        Some(ContactSlopes { force, point, pressed })
     }
 
     /// The contact point and its normal, with their derivatives.
@@ -132,15 +134,8 @@ impl Moving<'_> {
     /// Bristle of the last commit in the present contact plane, m, and its derivatives with the normal.
     fn carried(&self, normal: &Vec3, turned: &Matrix3x6<f64>) -> (Vec3, Matrix3x6<f64>) {
         let Some(record) = self.record else { return (Vec3::zeros(), Matrix3x6::zeros()) };
-        let (p, from) = (&record.bristle_b, &record.normal_b);
-        let (cosine, axis) = (from.dot(normal), from.cross(normal));
-        let denominator = (1.0 + cosine).max(f64::MIN_POSITIVE);
-        let (of_cosine, of_axis) = (from.transpose() * turned, from.cross_matrix() * turned);
-        let along = axis.dot(p) / denominator;
-        let slopes = p * of_cosine - p.cross_matrix() * of_axis
-            + of_axis * along
-            + axis * ((p.transpose() * of_axis - of_cosine * along) / denominator);
-        (carry_by_smallest_rotation(p, from, normal), slopes)
+        let carried = carry_by_smallest_rotation(&record.bristle_b, &record.normal_b, normal);
+        (carried, carried_slopes(record, normal, turned))
     }
 
     /// Slip since the last commit, m, and its derivatives in the contact plane.
@@ -182,9 +177,25 @@ impl Moving<'_> {
     }
 }
 
+/// Derivatives of the bristle of a record, carried to a normal that turns.
+pub(super) fn carried_slopes(
+    record: &ContactRecord,
+    normal: &Vec3,
+    turned: &Matrix3x6<f64>,
+) -> Matrix3x6<f64> {
+    let (p, from) = (&record.bristle_b, &record.normal_b);
+    let (cosine, axis) = (from.dot(normal), from.cross(normal));
+    let denominator = (1.0 + cosine).max(f64::MIN_POSITIVE);
+    let (of_cosine, of_axis) = (from.transpose() * turned, from.cross_matrix() * turned);
+    let along = axis.dot(p) / denominator;
+    p * of_cosine - p.cross_matrix() * of_axis
+        + of_axis * along
+        + axis * ((p.transpose() * of_axis - of_cosine * along) / denominator)
+}
+
 /// Derivatives of the rotation vector of A with a further small rotation φ: the inverse of the left Jacobian of
 /// rotations.
-fn rotation_slopes(rotation: &Vec3) -> Matrix3x6<f64> {
+pub(super) fn rotation_slopes(rotation: &Vec3) -> Matrix3x6<f64> {
     /// Angle, rad, below which the series is exact to rounding.
     const SMALL: f64 = 1e-2;
     let square = rotation.norm_squared();
