@@ -1,6 +1,7 @@
 //! Sum of the contacts of two movable groups, and its blocks in common axes.
 
 use super::contact::{ContactSlopes, VARIABLES};
+use super::resistance::CoupleSlopes;
 use crate::frame::FrameContact;
 use crate::frame::input::PairContext;
 use crate::frame::input::relative::Motions;
@@ -57,6 +58,13 @@ impl DirectionSlopes {
         self.add_rows(3, &moment, &point);
         self.wrench += Wrench::of_force_at(force, &point);
         self.touches = true;
+    }
+
+    /// Adds the couple that resists rolling and spinning at a contact.
+    pub fn add_couple(&mut self, couple: &CoupleSlopes) {
+        let mut moment = self.slopes.fixed_rows_mut::<3>(3);
+        moment += couple.slopes;
+        self.wrench.moment += couple.moment_b;
     }
 
     /// Adds three rows. An angular velocity moves the contact point, to which the velocity belongs.

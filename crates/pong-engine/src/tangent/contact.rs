@@ -4,6 +4,7 @@ use super::friction::{FrictionSlopes, Rubbing};
 use super::moves::{Moves, displacement, plane_axes};
 use crate::frame::FrameContact;
 use crate::frame::input::PairContext;
+use crate::frame::input::moving_surfaces::MovingPlace;
 use crate::law::normal_tangent;
 use crate::state::ContactRecord;
 use nalgebra::{Matrix3x6, RowVector6, SMatrix};
@@ -14,7 +15,7 @@ use pong_geometry::{Mat3, Vec3};
 /// Variables of a contact, in B's frame: u and φ of the relative pose (3 and 3, at B's origin), and the relative
 /// velocity at the contact point (3).
 pub(super) const VARIABLES: usize = 9;
-type Row = SMatrix<f64, 1, VARIABLES>;
+pub(super) type Row = SMatrix<f64, 1, VARIABLES>;
 type Rows3 = SMatrix<f64, 3, VARIABLES>;
 
 /// A contact and how it moves.
@@ -35,6 +36,8 @@ pub(super) struct Moving<'a> {
 pub(super) struct ContactSlopes {
     pub force: Rows3,
     pub point: Matrix3x6<f64>,
+    /// Normal force.
+    pub pressed: Row,
 }
 
 /// Columns of (u, φ) in the columns of all variables.
@@ -63,10 +66,24 @@ impl Moving<'_> {
             + padded(&self.weight) * (contact.normal_force / found.weight);
         let mut force = normal * pressed + padded(&moves.normal) * contact.normal_force;
         if contact.normal_force > 0.0 {
-            let slip_velocity = of_velocity + padded(&moves.normal) * contact.rate;
+            let mut slip_velocity = of_velocity + padded(&moves.normal) * contact.rate;
+            if let Some(surfaces) = context.surfaces.motions() {
+                let place = self.place(&point);
+                slip_velocity += padded(&surfaces.velocity_slopes(context.motion, &place));
+            }
             force += self.friction_slopes(context, &point, (&pressed, &slip_velocity))?;
         }
-        Some(ContactSlopes { force, point })
+        Some(ContactSlopes { force, point, pressed })
+    }
+
+    /// The contact point and its normal, with their derivatives.
+    fn place<'p>(&'p self, point: &'p Matrix3x6<f64>) -> MovingPlace<'p> {
+        MovingPlace {
+            point_b: &self.contact.point_b,
+            normal_b: &self.contact.found.normal_b,
+            point_slopes: point,
+            normal_slopes: &self.moves.normal,
+        }
     }
 
     /// Derivatives of the relative velocity at the contact point.
@@ -117,15 +134,8 @@ impl Moving<'_> {
     /// Bristle of the last commit in the present contact plane, m, and its derivatives with the normal.
     fn carried(&self, normal: &Vec3, turned: &Matrix3x6<f64>) -> (Vec3, Matrix3x6<f64>) {
         let Some(record) = self.record else { return (Vec3::zeros(), Matrix3x6::zeros()) };
-        let (p, from) = (&record.bristle_b, &record.normal_b);
-        let (cosine, axis) = (from.dot(normal), from.cross(normal));
-        let denominator = (1.0 + cosine).max(f64::MIN_POSITIVE);
-        let (of_cosine, of_axis) = (from.transpose() * turned, from.cross_matrix() * turned);
-        let along = axis.dot(p) / denominator;
-        let slopes = p * of_cosine - p.cross_matrix() * of_axis
-            + of_axis * along
-            + axis * ((p.transpose() * of_axis - of_cosine * along) / denominator);
-        (carry_by_smallest_rotation(p, from, normal), slopes)
+        let carried = carry_by_smallest_rotation(&record.bristle_b, &record.normal_b, normal);
+        (carried, carried_slopes(record, normal, turned))
     }
 
     /// Slip since the last commit, m, and its derivatives in the contact plane.
@@ -149,8 +159,14 @@ impl Moving<'_> {
         let normal = found.normal_b;
         let approach = -normal.dot(&displaced);
         let of_approach = -(displaced.transpose() * moves.normal) - normal.transpose() * of_displaced;
-        let across = displaced + normal * approach;
-        let of_across = of_displaced + moves.normal * approach + normal * of_approach;
+        let mut across = displaced + normal * approach;
+        let mut of_across = of_displaced + moves.normal * approach + normal * of_approach;
+        if let Some(surfaces) = context.surfaces.motions() {
+            let earlier = self.record.map(|record| (record.point_b, record.normal_b));
+            let motions = (context.motion, since);
+            across += surfaces.travel(motions, earlier, &contact.point_b, &normal);
+            of_across += surfaces.travel_slopes(motions, earlier, &self.place(point));
+        }
         if self.record.is_some() || approach <= found.depth {
             return (across, of_across);
         }
@@ -161,9 +177,25 @@ impl Moving<'_> {
     }
 }
 
+/// Derivatives of the bristle of a record, carried to a normal that turns.
+pub(super) fn carried_slopes(
+    record: &ContactRecord,
+    normal: &Vec3,
+    turned: &Matrix3x6<f64>,
+) -> Matrix3x6<f64> {
+    let (p, from) = (&record.bristle_b, &record.normal_b);
+    let (cosine, axis) = (from.dot(normal), from.cross(normal));
+    let denominator = (1.0 + cosine).max(f64::MIN_POSITIVE);
+    let (of_cosine, of_axis) = (from.transpose() * turned, from.cross_matrix() * turned);
+    let along = axis.dot(p) / denominator;
+    p * of_cosine - p.cross_matrix() * of_axis
+        + of_axis * along
+        + axis * ((p.transpose() * of_axis - of_cosine * along) / denominator)
+}
+
 /// Derivatives of the rotation vector of A with a further small rotation φ: the inverse of the left Jacobian of
 /// rotations.
-fn rotation_slopes(rotation: &Vec3) -> Matrix3x6<f64> {
+pub(super) fn rotation_slopes(rotation: &Vec3) -> Matrix3x6<f64> {
     /// Angle, rad, below which the series is exact to rounding.
     const SMALL: f64 = 1e-2;
     let square = rotation.norm_squared();

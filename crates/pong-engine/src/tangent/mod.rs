@@ -7,6 +7,7 @@
 //! | `moves.rs`, `ray.rs` | derivatives of depth, normal and contact point with the relative pose |
 //! | `sharing.rs` | derivatives of the weights of contacts that share a spring |
 //! | `friction.rs`, `contact.rs` | derivatives of the force of one contact |
+//! | `resistance.rs` | derivatives of the couple that resists rolling and spinning |
 //! | `blocks.rs` | sum over the contacts of two groups; common axes |
 
 mod blocks;
@@ -14,6 +15,7 @@ mod contact;
 mod friction;
 mod moves;
 mod ray;
+mod resistance;
 mod shape;
 mod sharing;
 
@@ -43,10 +45,8 @@ pub(crate) enum Missing {
     HostLaw,
     /// Two solids.
     Solids,
-    /// Rolling or spinning resistance.
+    /// Rolling or spinning resistance of a surface that moves along itself.
     Resistance,
-    /// A surface that moves along itself.
-    MovingSurface,
     /// Shapes whose contact has no unique derivative.
     Shapes,
 }
@@ -120,7 +120,8 @@ impl<'a> Frame<'a> {
             let mut contacts = Vec::new();
             for reference in refs.iter().filter(|reference| reference.pushes()) {
                 let contact = contact(reference);
-                if contact.found.role == ContactRole::Active {
+                let is_couple = !contact.found.key.is_tested() && !contact.found.key.is_of_solids();
+                if contact.found.role == ContactRole::Active && !is_couple {
                     contacts.push(self.moving(reference, contact)?);
                 }
             }
@@ -136,6 +137,10 @@ impl<'a> Frame<'a> {
             for moving in &contacts {
                 let slopes = moving.slopes(self.context).ok_or_else(|| unknown(moving, Missing::HostLaw))?;
                 sum.add(&slopes, moving.contact);
+                if self.context.props(&moving.contact.found).has_resistance() {
+                    let couple = resistance::couple(moving, self.context, &slopes);
+                    sum.add_couple(&couple.ok_or_else(|| unknown(moving, Missing::Resistance))?);
+                }
             }
         }
         Ok(sum)
@@ -157,12 +162,6 @@ impl<'a> Frame<'a> {
             return unknown(Missing::Solids);
         }
         let props = self.context.props(&contact.found);
-        if props.has_resistance() {
-            return unknown(Missing::Resistance);
-        }
-        if self.context.surfaces.motions().is_some() {
-            return unknown(Missing::MovingSurface);
-        }
         if matches!(props.normal, NormalProps::Custom { .. })
             || matches!(props.friction, FrictionProps::Custom { .. })
         {

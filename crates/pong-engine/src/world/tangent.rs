@@ -64,10 +64,7 @@ impl World {
             Missing::HostLaw => "has a law of the host's, which gives no derivatives",
             Missing::Solids => "is of two solids, whose derivatives are not known in closed form",
             Missing::Resistance => {
-                "resists rolling or spinning; its derivatives are not known in closed form"
-            }
-            Missing::MovingSurface => {
-                "has a surface that moves along itself; its derivatives are not known in closed form"
+                "resists rolling on a surface that moves along itself; its derivatives are not known in closed form"
             }
             Missing::Shapes => {
                 "has no unique derivative: both shapes are flat or parallel there, or A is a ray"

@@ -144,6 +144,40 @@ fn differences_give_the_same() {
     }
 }
 
+/// A ball that resists rolling and spinning: held, and beyond both limits; in the step in which it lands as well.
+#[test]
+fn resistance_to_rolling_is_differentiated() {
+    let rough = surface(K, "friction: Bristle(mu: 0.6, damping: 60.0, rolling: 2e-3, spinning: 1e-3)");
+    let ball = "Sphere(name: \"b\", center: (0.05,0,0.1), radius: 0.3)";
+    let hill = "Sphere(name: \"h\", center: (0,0,-2), radius: 2.0)";
+    for (turn, frames) in [(1e-6, 3), (3e-3, 3), (1e-6, 1), (3e-3, 1)] {
+        let mut rig = Rig::new(&model("ball", &rough, ball), &model("hill", &rough, hill));
+        let state = |t: f64| {
+            let height = if t == 0.0 { 0.21 } else { 0.198 };
+            moving(
+                Vec3::new(0.01 + 0.3 * turn * t, 0.02, height),
+                Quat::from_scaled_axis(Vec3::new(0.3 * turn * t, turn * t, 0.7 * turn * t)),
+                Vec3::new(0.03, 0.01, -0.01),
+                Vec3::new(0.02, 0.1, 0.07),
+            )
+        };
+        rig.place([state(0.0), State::identity()]);
+        rig.world.step().unwrap();
+        for frame in 1..=frames {
+            rig.place([state(f64::from(frame)), State::identity()]);
+            rig.world.evaluate().unwrap();
+            if frame < frames {
+                rig.world.commit().unwrap();
+            }
+        }
+        assert_eq!(rig.world.contact_count(), 3, "a contact and a couple");
+        let exact = rig.world.tangents().unwrap();
+        let differences = rig.world.tangents_by_differences().unwrap();
+        let off = apart(&exact, &differences, 0.3);
+        assert!(off < 1e-5, "{turn} {frames}: {off:e}\n{exact:?}\n{differences:?}");
+    }
+}
+
 /// A cube of solid contact, side 0.2 m, flat on a floor: K·A across its face, by differences alone.
 #[test]
 fn solids_have_a_tangent_by_differences() {

@@ -4,7 +4,7 @@ mod bristles;
 pub(crate) mod contact;
 pub(crate) mod contact_buffer;
 pub(crate) mod contact_ref;
-mod couples;
+pub(crate) mod couples;
 pub(crate) mod found;
 
 use crate::frame::broad_phase::chunk::Chunk;
