@@ -20,7 +20,7 @@ ARROWS = {
     "pong-engine": {"pong-arena", "pong-geometry", "pong-model", "pong-threads"},
     "pong": {"pong-geometry", "pong-model", "pong-engine", "pong-threads"},
     "pong-advise": {"pong-geometry", "pong-model", "pong-engine"},
-    "pong-executive": {"pong-advise", "pong-geometry", "pong-model", "pong-engine"},
+    "pong-executive": {"pong-advise", "pong-geometry", "pong-model", "pong-engine", "pong-slow"},
     "pong-slow": {"pong-geometry", "pong-model", "pong-engine"},
     "pong-record": {"pong-arena", "pong-geometry", "pong-model", "pong-engine"},
     "pong-verify": {"pong-testkit", "pong-report", "pong-geometry", "pong-model", "pong-engine", "pong-executive"},

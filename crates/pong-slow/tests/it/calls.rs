@@ -197,3 +197,34 @@ fn a_wrong_theta_a_limit_and_a_second_partner_are_seen() {
     }
     assert!(limited && rig.bodies[0].velocity.norm() < 1e-6);
 }
+
+/// A ball with its mass centre away from the origin of the group gets the same force, and the moment about that origin.
+#[test]
+fn a_group_frame_away_from_the_mass_centre_changes_no_wrench() {
+    let [ball, floor] = models();
+    let center = Vec3::new(0.3, 0.1, -0.2);
+    let moved = ball.replace("center: (0,0,0)", "center: (0.3,0.1,-0.2)");
+    let (world, ids) = all_paired(Config::default(), &[&moved, &floor]);
+    let mut other = SlowHost::new(&world, settings(1.0, 12.0)).unwrap();
+    let mut body = Body::ball(2.0, 0.05, Vec3::z() * 0.0505, Vec3::new(0.2, 0.0, -0.1));
+    (body.gravity, body.turning) = (Vec3::z() * -9.81, Vec3::new(1.0, 3.0, -2.0));
+    let mut rig = Rig::new(&[&ball, &floor], vec![body, Body::fixed()], settings(1.0, 12.0), 0.02);
+    for _ in 0..15 {
+        let mut inputs = rig.inputs();
+        let body = &rig.bodies[0];
+        let arm = body.orientation * center;
+        inputs[0].state.position = (body.position - arm).into();
+        inputs[0].state.linear_velocity = (body.velocity - body.turning.cross(&arm)).into();
+        if let Dynamics::Free { mass_center, .. } = &mut inputs[0].dynamics {
+            *mass_center = center.into();
+        }
+        (inputs[0].interface, inputs[1].interface) = (ids[0], ids[1]);
+        other.step(0.02, &inputs).unwrap();
+        rig.step();
+        let (one, two) =
+            (rig.slow.wrench_common(rig.interfaces[0]).unwrap(), other.wrench_common(ids[0]).unwrap());
+        let size = one.force.norm() + 1e-3;
+        assert!((one.force - two.force).norm() <= 1e-6 * size, "{one:?} {two:?}");
+        assert!((one.moment - (two.moment - arm.cross(&two.force))).norm() <= 1e-6 * size, "{one:?} {two:?}");
+    }
+}
