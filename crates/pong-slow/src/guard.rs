@@ -2,7 +2,7 @@
 //!
 //! A copy that slid further than the host's body has lost more to friction: that much more energy the host may have.
 //! The copies follow a passive motion, and an implicit step never raises the energy of convex springs. So neither host nor
-//! copy ever has more energy than at the start (docs/theory.md, 10).
+//! copy ever has more energy than at the start (docs/theory.md, 9).
 
 use crate::body::Body;
 use crate::contact_set::{Spring, springs_at};

@@ -1,4 +1,4 @@
-//! Contact wrenches for hosts that call once in a long frame and hold the wrench (docs/theory.md, 10).
+//! Contact wrenches for hosts that call once in a long frame and hold the wrench (docs/theory.md, 9).
 //!
 //! A [`SlowHost`] follows the bodies through the frame on *copies*, with substeps that are short enough for the
 //! contacts, and returns for each movable group the one wrench that takes the host's body as near to the end of

@@ -1,6 +1,6 @@
 //! Velocity that the host can reach nearest to the end of the copies, in the energy norm of the contacts that are closed
 //! there: the least ½·(u − w)·M·(u − w) + ½·Σ k·e², e the distance between the two points of a contact after a frame with
-//! the velocity u (docs/theory.md, 10).
+//! the velocity u (docs/theory.md, 9).
 
 use crate::body::Body;
 use crate::contact_set::{Row, axes_of};

@@ -1,4 +1,4 @@
-//! Wrenches on their way to a host that applies them some frames late (docs/theory.md, 10).
+//! Wrenches on their way to a host that applies them some frames late (docs/theory.md, 9).
 
 use crate::body::Body;
 use crate::error::SlowError;

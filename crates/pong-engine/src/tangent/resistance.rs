@@ -120,7 +120,7 @@ pub(super) fn couple(
     Some(sum)
 }
 
-/// Carried bristle, angle turned since the last commit, and angular velocity, with their derivatives.
+/// Bristle in the present contact plane, angle turned since the last commit, and angular velocity, with their derivatives.
 fn vectors(
     moving: &Moving<'_>,
     context: &PairContext<'_>,
