@@ -7,6 +7,7 @@
     python3 mechanisms/run.py NAME --log DIR --drawn    with bodies that touch nothing, for viewers and films
     python3 mechanisms/run.py NAME --campaign DIR --runs 1000      dispersed runs; rows go to DIR, what is there stays
     python3 mechanisms/run.py NAME --loads DIR --case FILE         loads of the cases of a file (kit/loads.py)
+    python3 mechanisms/run.py NAME --loads-check                   loads of a changed mechanism beside closed forms
     python3 mechanisms/run.py NAME --set CHASER_MASS=13e3 …        any of these with another number (kit/parameters.py)
 
 Needs mujoco, numpy, the wheel pong (docs/python.md) and the plugin (docs/mujoco.md): its file in the variable PLUGIN, or
@@ -39,8 +40,11 @@ def main():
     parser.add_argument("--case", type=pathlib.Path, metavar="FILE", help="loads-case file: parameters and cases")
     parser.add_argument("--set", action="append", default=[], metavar="NAME=VALUE", help="a constant of dimensions.py")
     parser.add_argument("--loads", type=pathlib.Path, metavar="DIR", help="loads of the cases: checks nothing else")
+    parser.add_argument("--loads-check", action="store_true", help="loads beside closed forms: checks nothing else")
     given = parser.parse_args()
     sys.path[:0] = [str(HERE / given.name), str(HERE)]
+    if given.loads_check:
+        sys.exit(check_loads(given, parser))
     cases = take_parameters(given)
     if given.loads:
         sys.exit(run_loads(given, cases, parser))
@@ -51,7 +55,7 @@ def main():
     if given.log:
         if not hasattr(outcome, "shown"):
             parser.error(f"{given.name} has no scene to show: its outcome.py lacks the function `shown`")
-        sys.exit(write_log(outcome, given.log, getattr(outcome, "DRAWN", ()) if given.drawn else ()))
+        sys.exit(write_log(outcome, given))
     from kit.rows import show
     from kit.rules import Tally
 
@@ -85,9 +89,18 @@ def run_loads(given, cases, parser):
         parser.error(f"{given.name} has no loads: it lacks the file loads.py")
     import loads as mechanism
 
-    if not hasattr(mechanism, "run_case"):
-        parser.error(f"the loads of {given.name} are a program of their own: mechanisms/{given.name}/loads.py")
     print("\n".join(loads.shown(loads.run(mechanism, cases, given.loads))))
+
+
+def check_loads(given, parser):
+    from kit import loads_check
+    from kit.rows import show
+
+    home = HERE / given.name
+    if not (home / loads_check.FILE).exists():
+        parser.error(f"{given.name} has no loads to check: it lacks the file {loads_check.FILE}")
+    off = show(f"loads with changed numbers: {loads_check.FILE}", loads_check.rows(home))
+    return f"{given.name}: {off} of its loads do not hold" if off else 0
 
 
 def run_campaign(given, parser):
@@ -100,14 +113,16 @@ def run_campaign(given, parser):
     conclusion.command(campaign.STUDY, home, given)
 
 
-def write_log(outcome, folder, drawn):
+def write_log(outcome, given):
     """Runs the scene that the mechanism shows. The log's own contact world must give the same wrenches."""
     from kit.record import Recorder
 
+    folder, drawn = given.log, getattr(outcome, "DRAWN", ()) if given.drawn else ()
+    rows_per_second = getattr(outcome, "ROWS_PER_SECOND", ROWS_PER_SECOND)
     recorders = []
 
     def prepare(machine):
-        every = round(1.0 / (ROWS_PER_SECOND * machine.step))
+        every = round(1.0 / (rows_per_second * machine.step))
         recorders.append(Recorder(machine, folder, every, drawn))
         machine.watchers.append(recorders[0])
 

@@ -60,6 +60,7 @@ def _add_what_is_shown(parser) -> None:
     parser.add_argument("--to", dest="end", type=float, metavar="S", help="last instant, s in the log")
     parser.add_argument("--relative-to", default="", metavar="BODY", help="hold this body still")
     parser.add_argument("--arrow", type=float, default=0.0, metavar="M", help="length of the largest force, m")
+    parser.add_argument("--mark", type=float, default=0.0, metavar="M", help="radius of the disc at a contact, m")
     parser.add_argument("--most-contacts", type=int, default=64, metavar="N", help="shown at once; default 64")
     parser.add_argument("--alpha", type=float, default=0.55, help="opacity of bodies, 0 to 1; default 0.55")
     parser.add_argument("--look-from", type=_direction, metavar="X,Y,Z",
@@ -77,6 +78,8 @@ def _add_how_it_is_rendered(parser) -> None:
                         help="leave time, largest force and scale of the arrows out of the pictures")
     parser.add_argument("--quick", action="store_true",
                         help="workbench without shadows and with edges smoothed after rendering: less time")
+    parser.add_argument("--no-smoothing", dest="smooth", action="store_false",
+                        help="workbench with edges as they are drawn; with --quick, a third of its time")
     parser.add_argument("--samples", type=int, default=8, help="of eevee and cycles; default 8")
 
 
@@ -183,11 +186,11 @@ def _show(log, given):
     import bpy
 
     before.note(bpy.context.scene)
-    prepare(bpy.context.scene, Picture(*given.size, given.engine, given.samples, given.quick))
+    prepare(bpy.context.scene, Picture(*given.size, given.engine, given.samples, given.quick, given.smooth))
     return show(log, Options(
         fps=given.fps, speed=given.speed, start=given.start, end=given.end, relative_to=given.relative_to,
-        arrow_length=given.arrow, most_contacts=given.most_contacts, alpha=given.alpha, shapes=given.shapes,
-        graphics=dict(given.map), camera=not given.own_camera, look_from=given.look_from or camera.DIRECTION,
+        arrow_length=given.arrow, mark_radius=given.mark, most_contacts=given.most_contacts, alpha=given.alpha,
+        shapes=given.shapes, graphics=dict(given.map), camera=not given.own_camera, look_from=given.look_from or camera.DIRECTION,
         look_at=given.look_at,
     ))
 

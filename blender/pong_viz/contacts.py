@@ -10,7 +10,8 @@ from .animate import action_curves, key
 from .bodies import mesh_object
 
 FORCE = (0.75, 0.02, 0.02, 1.0)
-MARK_RADIUS, MARK_THICKNESS = 0.045, 0.015  # of a mark, a disc in the tangent plane, as a share of the extent
+MARK_RADIUS = 0.045  # of a mark, a disc in the tangent plane, as a share of the extent
+MARK_THICKNESS = 1.0 / 3.0  # of a mark, as a share of its radius
 
 
 def show_contacts(stage, shown) -> marks.Slots:
@@ -35,7 +36,8 @@ def show_contacts(stage, shown) -> marks.Slots:
         curves = _key_place(mark, made, slot, stage.unit)
         _key_mark(curves, made, slot, shown.pressure_scale)
         mark.rotation_mode = arrow.rotation_mode = "QUATERNION"
-        wide, thick = (share * stage.extent / stage.unit for share in (MARK_RADIUS, MARK_THICKNESS))
+        wide = (stage.options.mark_radius or MARK_RADIUS * stage.extent) / stage.unit
+        thick = MARK_THICKNESS * wide
         mark.scale = (wide, wide, thick)
         if made.areas[:, slot].any():
             _key_patch(curves, made, slot, (wide, thick), stage.unit)

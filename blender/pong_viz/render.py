@@ -13,6 +13,7 @@ from . import captions
 BACKGROUND = (0.50, 0.53, 0.58)
 # Workbench's studio light is dim. The two suns of camera.py and the background give 1.6 times the light of a white
 # surface; the exposure compensates for that, so that colours are true.
+KEY_PICTURE_SECONDS = 4  # of film from one whole picture to the next: most of the bytes of a film are in these
 EXPOSURE = {"workbench": 0.7, "lit": -0.7}
 
 
@@ -25,6 +26,7 @@ class Picture:
     engine: str = "workbench"
     samples: int = 8
     quick: bool = False  # Workbench without shadows and with one sample
+    smooth: bool = True  # Workbench: edges without steps
 
 
 def prepare(scene, picture: Picture) -> None:
@@ -49,7 +51,7 @@ def prepare(scene, picture: Picture) -> None:
         shading = scene.display.shading
         shading.light, shading.color_type = "STUDIO", "OBJECT"
         shading.show_shadows, shading.show_cavity = not picture.quick, True
-        scene.display.render_aa = "FXAA" if picture.quick else "8"
+        scene.display.render_aa = ("FXAA" if picture.quick else "8") if picture.smooth else "OFF"
     elif picture.engine == "cycles":
         scene.cycles.device, scene.cycles.samples, scene.cycles.use_denoising = "CPU", picture.samples, False
     else:
@@ -121,6 +123,7 @@ def as_film(scene, path: Path) -> None:
     settings.file_format = "FFMPEG"
     scene.render.ffmpeg.format, scene.render.ffmpeg.codec = "MPEG4", "H264"
     scene.render.ffmpeg.constant_rate_factor = "HIGH"
+    scene.render.ffmpeg.gopsize = KEY_PICTURE_SECONDS * scene.render.fps
     scene.render.resolution_x += scene.render.resolution_x % 2
     scene.render.resolution_y += scene.render.resolution_y % 2
     scene.render.use_file_extension = False

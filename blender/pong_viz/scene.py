@@ -26,6 +26,7 @@ class Options:
     end: float | None = None  # s
     relative_to: str = ""  # a body that is held still; "" for the common frame
     arrow_length: float = 0.0  # m for the largest force of the run; 0 for half the extent
+    mark_radius: float = 0.0  # m of the disc at a contact; 0 for a share of the extent
     most_contacts: int = 64  # shown at once
     alpha: float = 0.55  # of bodies, so that arrows inside them are seen
     shapes: str = "missing"  # draw the models' primitives: one of SHAPES

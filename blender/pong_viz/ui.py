@@ -41,6 +41,8 @@ class PONG_OT_import_response(bpy.types.Operator, ImportHelper):
     ))
     arrow_length: FloatProperty(name="Arrow, m", description="Length for the largest force; 0 chooses", default=0.0, min=0.0,
                                 precision=4)
+    mark_radius: FloatProperty(name="Mark, m", description="Radius of the disc at a contact; 0 chooses", default=0.0, min=0.0,
+                               precision=4)
     most_contacts: IntProperty(name="Contacts", description="Shown at once", default=64, min=1)
     alpha: FloatProperty(name="Opacity", default=0.55, min=0.0, max=1.0)
     camera: BoolProperty(name="Camera and lights", description="Add a camera that has all in view, and two suns", default=True)
@@ -72,7 +74,7 @@ class PONG_OT_import_response(bpy.types.Operator, ImportHelper):
         return Options(
             fps=self.fps, speed=self.speed, start=self.start if self.part else None, end=self.end if self.part else None,
             relative_to=self.relative_to, shapes=self.shapes, arrow_length=self.arrow_length,
-            most_contacts=self.most_contacts, alpha=self.alpha, camera=self.camera,
+            mark_radius=self.mark_radius, most_contacts=self.most_contacts, alpha=self.alpha, camera=self.camera,
         )
 
 

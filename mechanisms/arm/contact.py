@@ -4,7 +4,7 @@ import dataclasses
 
 import numpy as np
 import rig
-from dimensions import PAD_DAMPING
+from dimensions import PAD_DAMPING, PUSH
 from kit.arm import Law
 from kit.arm import dimensions as d
 from kit.arm.kinematics import resolve
@@ -12,7 +12,6 @@ from kit.rules import honest
 from kit.rows import Fact, Limit, Row
 from margin import Linear
 
-PUSH = 300.0  # N, commanded
 RATE = 0.01  # m/s, commanded towards the pad
 
 

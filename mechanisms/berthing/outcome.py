@@ -150,7 +150,7 @@ def stalled(thorough):
             yield from off_nominal.stalled_latch(mechanism.Load(), "module", smooth)
 
 
-DRAWN = ("world", "crank_*", "coupler_*", "follower_*")  # bodies that logs and films show beside what touches
+DRAWN = ("world", "passive", "crank_*", "coupler_*", "follower_*")  # bodies that logs and films show beside what touches
 
 
 def shown(prepare):

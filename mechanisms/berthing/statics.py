@@ -19,6 +19,7 @@ TIP = common.series(d.TIP_STIFFNESS)
 PLUNGER = common.series(d.PLUNGER_SPRING, TIP)
 LATCH = common.series(common.LATCH_STIFFNESS)
 EDGE = common.series(common.PADDLE_STIFFNESS)
+SETTLED = 1e-15  # m and rad by which an equilibrium may still move
 FULL = (1.0, 1.0, 1.0, 1.0)
 
 
@@ -114,7 +115,10 @@ def rest(shares=FULL, start=1e-3):
         now, step = residual(state, shares), 1e-9
         slope = np.array([(residual(state + step * axis, shares) - now) / step for axis in np.eye(3)]).T
         move = np.linalg.solve(slope, -now)
-        state = state + move * min(1.0, 2e-3 / np.abs(move).max())
+        farthest = np.abs(move).max()
+        if farthest < SETTLED:
+            break
+        state = state + move * min(1.0, 2e-3 / farthest)
     return state
 
 

@@ -1,24 +1,33 @@
-"""Loads of a docking, for kit/loads.py: fields of a case are those of `docking.Case`, angles in rad.
+"""Loads of a docking, for kit/loads.py: fields of a case are those of `docking.Case` and those below, angles in rad."""
 
-`until` is the phase at whose begin a run ends: `align` leaves hard capture out. `level` is `training` or `analysis`.
-"""
-
-import dataclasses
-import sys
+from dataclasses import dataclass
 
 import dimensions as d
 import docking
+import rig_hard
+from sequence import Sequencer
 
-LOADED = ("target", "ring")
+LOADED = ("target", "ring", "hook_0")
 LEVELS = {"training": d.TRAINING, "analysis": d.ANALYSIS}
+CHECKED = "hooked"
 
 
-def run_case(fields, prepare, watched):
-    fields = {name: tuple(value) if isinstance(value, list) else value for name, value in fields.items()}
-    until, level = fields.pop("until", "done"), fields.pop("level", "training")
-    known = {field.name for field in dataclasses.fields(docking.Case)} - {"level"}
-    unknown = sorted(fields.keys() - known)
-    if unknown or level not in LEVELS:
-        cause = f"there is no field `{unknown[0]}`" if unknown else f"there is no level `{level}`"
-        sys.exit(f"case of the docking: {cause}; give until, level ({', '.join(LEVELS)}), {', '.join(sorted(known))}")
-    return docking.run(docking.Case(level=LEVELS[level], **fields), until, prepare=prepare, watched=watched)
+@dataclass(frozen=True)
+class Case(docking.Case):
+    """`until`: phase at whose begin a run ends; `align` leaves hard capture out. `begin`: `capture`, with the approach,
+    or `hook`, with vehicles that are pulled together already."""
+
+    until: str = "done"
+    begin: str = "capture"
+
+
+def run_case(case, watch):
+    made = docking.captured(d.MATED, case.level) if case.begin == "hook" else docking.approach(case)
+    sequencer = Sequencer(case.dead_latch, case.stuck_leg, case.give_up, from_phase=case.begin)
+    watch(made, lambda: sequencer.phase)
+    docking.go_on(made, sequencer, case.until)
+
+
+def predicted(case):
+    """Preload of a hook whose motor has stalled."""
+    return {("hook_0", "force"): rig_hard.predicted_hook()[0]} if case.until == "unhook" else {}

@@ -36,6 +36,9 @@ TIMES = {
     "unlatch": 0.4,
     "away": 2.6,
 }
+# A motor that is driven back gives its stall torque and damps nothing, so hooks swing for seconds after a heavy vehicle
+# has met its pads. They hold their preload when all of them have stood for a while.
+HOOKS_STAND, HOOKS_STAND_FOR, HOOK_MOST = 5e-4, 0.2, 12.0  # rad/s; s; s after which the sequence goes on all the same
 HOOK_VOLTAGE = {"hook": 1.0, "hold": 1.0, "unhook": -0.5}
 RELEASED = ("unlatch", "away", "done", "abort")
 
@@ -76,6 +79,7 @@ class Sequencer:
         self.dead_latch, self.stuck_leg, self.give_up, self.hard = dead_latch, stuck_leg, give_up, hard
         self.phase, self.since, self.began = from_phase, 0.0, {from_phase: 0.0}
         self.captured_at, self.before = None, d.CAPTURING
+        self.swung = 0.0  # when a hook moved last
 
     def __call__(self, made):
         self._go_on(made)
@@ -92,8 +96,16 @@ class Sequencer:
                 self._enter("attenuate", made)
             elif waited > self.give_up:
                 self._enter("abort", made)
-        elif self.phase in TIMES and waited >= TIMES[self.phase] - 0.5 * made.step:
+        elif self.phase in TIMES and waited >= TIMES[self.phase] - 0.5 * made.step and self._hooked(made, waited):
             self._enter(PHASES[PHASES.index(self.phase) + 1], made)
+
+    def _hooked(self, made, waited):
+        """True if all hooks stand, in the phase `hook`; always in another phase."""
+        if self.phase != "hook" or not self.hard:
+            return True
+        if max(abs(made.speed(f"hook_{i}")) for i in range(d.HOOKS)) > HOOKS_STAND:
+            self.swung = made.time
+        return made.time - self.swung >= HOOKS_STAND_FOR or waited >= HOOK_MOST
 
     def _enter(self, phase, made):
         self.before = self._law(made.time)

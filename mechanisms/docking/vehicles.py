@@ -92,7 +92,7 @@ def machine(level, hard=True, drawn=None, assets="", dead_pusher=False, petals=T
     `dead_pusher`: pusher 0 does not push. Without `petals` these, strikers and latches touch nothing.
     `kind`: of machine, for other contacts.
     """
-    objects = parameters.with_surfaces({**SOFT, **(HARD if hard else {})}, d.ROOT)
+    objects = {**SOFT, **(HARD if hard else {})}
     objects |= {"hard_chaser": "text1"} if dead_pusher else {}
     texts = [without_pusher()] if dead_pusher else []
     carried = {"chaser/ring": "ring", **{f"chaser/ring/latch_{i}": f"latch_{i}" for i in LATCHES}}

@@ -1,68 +1,42 @@
-#!/usr/bin/env python3
-"""Capture and release loads of a free flyer of 16 t, the largest in each phase, at both levels: the table of README.md.
+"""Loads of the end effector, for kit/loads.py: fields of a case are those of `scene.Case` and those below."""
 
-python3 mechanisms/end_effector/loads.py [LEVEL…]        with the plugin as for mechanisms/run.py; minutes
-"""
+from dataclasses import dataclass, field, replace
 
-import argparse
-import pathlib
-import sys
-from dataclasses import replace
+import capture
+import rig_preload
+import scene
+from dimensions import Snare, training
 
-HERE = pathlib.Path(__file__).resolve().parent
-sys.path[:0] = [str(HERE), str(HERE.parent)]
-
-import capture  # noqa: E402
-import numpy as np  # noqa: E402
-import snare as s  # noqa: E402
-from dimensions import Snare, training  # noqa: E402
-from scene import Case  # noqa: E402
-
-HEAVY = Case(snare=training(Snare()), mass=16000.0, roll_deg=0.5, held_for=3.0)
-LEVELS = {"analysis": Snare(), "training": HEAVY.snare}
-PHASES = ("snare", "retract", "rigidize", "hold", "release", "open", "push")
+LOADED = ("payload",)
+LEVELS = {"training": training(Snare()), "analysis": Snare()}
+CHECKED = "pressed"
 
 
-class Loads:
-    """Largest loads of each phase: force along and across the shell's axis, moment about the plate's centre, tension."""
+@dataclass(frozen=True)
+class Case(scene.Case):
+    """`begin`: `snare`, a capture and release; or `press`, where the carriage pulls a plate onto eight pads.
 
-    def __init__(self, snare):
-        self.snare, self.most = snare, {}
+    `until`: phase of the sequence at whose begin a capture ends.
+    """
 
-    def __call__(self, machine, sequencer):
-        wrench = machine.wrench("payload")
-        axis = machine.data.xmat[machine.model.body("shell").id].reshape(3, 3)[:, 2]
-        along = float(axis @ wrench[:3])
-        across = float(np.linalg.norm(wrench[:3] - along * axis))
-        pull = max(s.tension(machine, self.snare, cable) for cable in range(s.CABLES))
-        now = np.array([abs(along), across, np.linalg.norm(wrench[3:]), pull])
-        self.most[sequencer.phase] = np.maximum(now, self.most.get(sequencer.phase, np.zeros(4)))
+    level: Snare = field(default_factory=lambda: LEVELS["training"])
+    begin: str = "snare"
+    until: str = "done"
 
 
-def measured(case):
-    loads = Loads(case.snare)
-    return loads.most, capture.run(case, watch=loads, accounts=False)
+def run_case(case, watch):
+    if case.begin == "press":
+        made = rig_preload.joint_rig(8)
+        watch(made, lambda: "press")
+        rig_preload.press(made)
+        return
+    case = replace(case, snare=case.level)
+    made, sequencer = capture.machine(case), capture.sequencer_of(case)
+    watch(made, lambda: sequencer.phase)
+    while sequencer.phase not in (case.until, "done"):
+        made.advance(sequencer)
 
 
-def table(found):
-    """Table of `found`: (name of the level, loads, result), with the levels side by side."""
-    yield "| phase | along the axis, N | across, N | moment about the plate's centre, N·m | tension of a cable, N |"
-    yield "|---|---|---|---|---|"
-    for phase in PHASES:
-        beside = zip(*(most[phase] for _, most, _ in found))
-        yield f"| {phase} | " + " | ".join(" / ".join(f"{value:.0f}" for value in values) for values in beside) + " |"
-    for name, _, result in found:
-        predicted = capture.push_off_speed(HEAVY.mass, result.gap, result.before)
-        yield f"{name}: captured {result.captured}, preload {result.preload:.0f} N, away {1e3 * result.away:.2f} mm/s,"
-        yield f"    from energy {1e3 * predicted:.2f} mm/s; phases end at {result.ends}"
-
-
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("levels", nargs="*", choices=[*LEVELS, []], help="all unless given")
-    names = parser.parse_args().levels or LEVELS
-    print("\n".join(table([(name, *measured(replace(HEAVY, snare=LEVELS[name]))) for name in names])))
-
-
-if __name__ == "__main__":
-    main()
+def predicted(case):
+    """Preload of the stalled carriage."""
+    return {("payload", "force"): scene.screw_force()} if case.begin == "press" else {}

@@ -134,6 +134,9 @@ def cams_turn():
     yield Fact("without cams the same payload is not seated", not bare.captured)
 
 
+DRAWN = ("ring",)  # bodies that logs and films show beside what touches
+
+
 def shown(prepare):
     """Run for logs and films: `prepare` receives the machine before it moves."""
     capture.run(capture.Case(snare=TRAINING), prepare=prepare)

@@ -53,3 +53,11 @@ class Level:
 
 
 TRAINING, ANALYSIS = Level(1e-3), Level(2.5e-4)
+
+# Values of surfaces in model files (kit/parameters.py): file, surface, and the path of the value.
+ON_SURFACES = {
+    "STIFFNESS": [("foot.ron", "rubber", "stiffness")],
+    "DAMPING": [("foot.ron", "rubber", "normal", "Linear", "damping")],
+    "FRICTION": [("foot.ron", "rubber", "friction", "Bristle", "mu"), ("plane.ron", "rock", "friction", "Bristle", "mu")],
+    "STICKING_DAMPING": [("foot.ron", "rubber", "friction", "Bristle", "damping")],
+}

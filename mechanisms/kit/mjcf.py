@@ -3,6 +3,8 @@
 import pathlib
 import re
 
+from kit import parameters
+
 
 def numbers(values):
     return " ".join(f"{value:.12g}" for value in values)
@@ -39,8 +41,11 @@ def motor(name, joint, stall, free_speed, gear=1.0):
 def contact_instance(objects, pairs, bodies, texts=(), folder=None, capacity=64, friction=None):
     """An instance of the plugin. `objects`: name → model file or text1 … text4; `bodies`: group → body.
 
-    `friction`: of all surfaces, in place of what the files say; there may be four files at most.
+    `friction`: of all surfaces, in place of what the files say; there may be four files at most. Values of surfaces that
+    a loads case replaces are in files written anew (kit/parameters.py).
     """
+    if folder is not None:
+        objects = parameters.with_surfaces(objects, folder)
     if friction is not None:
         files = list(dict.fromkeys(objects.values()))
         texts = [with_friction((pathlib.Path(folder) / file).read_text(encoding="utf-8"), friction) for file in files]

@@ -134,7 +134,9 @@ def replaced(name, value, field, wanted):
 def refuse_what_models_hold(home, module):
     """Refuses constants that build.py writes into model files, unless they are values of surfaces."""
     build = pathlib.Path(home) / "build.py"
-    used = set(re.findall(r"\bd\.([A-Z_]+)\b", build.read_text(encoding="utf-8"))) if build.exists() else set()
+    text = build.read_text(encoding="utf-8") if build.exists() else ""
+    imported = re.findall(r"^from dimensions import (\([^)]*\)|[^(#\n]*)", text, re.MULTILINE)
+    used = set(re.findall(r"\bd\.([A-Z_]+)\b", text)) | set(re.findall(r"\b[A-Z_]+\b", " ".join(imported)))
     for name in sorted(used & _changed.keys() - getattr(module, "ON_SURFACES", {}).keys()):
         cure = "change it in dimensions.py and run build.py with Blender"
         fail(f"parameter `{name}`: it is a shape in the model files of {pathlib.Path(home).name}", cure)

@@ -2,12 +2,14 @@
 
 import contextlib
 import csv
+import importlib.util
 import io
 import math
 import multiprocessing
 import pathlib
 import sys
 import tempfile
+from dataclasses import dataclass
 from types import SimpleNamespace
 
 from kit import loads, parameters
@@ -80,15 +82,22 @@ def weight():
 def bounce(thrown, mass, stiffness, folder):
     """A ball on a spring: the peak is v·√(k·m), a quarter of a period after touch."""
 
-    def run_case(fields, prepare, watched):
-        made, phases = thrown(fields["speed"]), SimpleNamespace(phase="bounce")
-        prepare(made)
-        for _ in range(round(0.05 / made.step)):
-            made.advance()
-            watched(made, phases)
+    @dataclass(frozen=True)
+    class Case:
+        speed: float = 0.5
 
-    mechanism = SimpleNamespace(LOADED=("ball",), run_case=run_case)
+    def run_case(case, watch):
+        made = thrown(case.speed)
+        watch(made, lambda: "bounce")
+        made.run(0.05)
+
+    def predicted(case):
+        return {("ball", "force"): 0.0}
+
+    mechanism = SimpleNamespace(Case=Case, LOADED=("ball",), run_case=run_case, predicted=predicted)
     found = loads.run(mechanism, {"slow": {"speed": 0.5}, "fast": {"speed": 1.0}}, folder)
+    for wrong in ({"sped": 0.5}, {"level": "training"}):
+        yield Fact(f"loads: a case is refused: {wrong}", _exits(loads.case_of, mechanism, "wrong", wrong))
     peaks = {(row[0], row[2]): dict(zip(loads.TABLE, row)) for row in found}
     rate, step = math.sqrt(stiffness / mass), 1e-3
     for name, speed in (("slow", 0.5), ("fast", 1.0)):
@@ -100,13 +109,24 @@ def bounce(thrown, mass, stiffness, folder):
         history = list(csv.DictReader(file))
     greatest = max(float(row["force.ball"]) for row in history)
     yield Fact("loads: the history has the peak", greatest == peaks["fast", "force"]["peak"])
+    end = (peaks["fast", "force"]["last"], peaks["fast", "force"]["predicted"])
+    yield Fact("loads: nothing touches at the end, as predicted", end == (0.0, 0.0))
+    yield Fact("loads: the plot is drawn where Matplotlib is", (folder / "fast.png").exists() == _has("matplotlib"))
     yield Fact("loads: the table is written", (folder / "loads.csv").exists())
 
 
+def _has(module):
+    return importlib.util.find_spec(module) is not None
+
+
 def _refused(text, home):
+    return _exits(lambda: parameters.install(home, parameters.settings([text])))
+
+
+def _exits(function, *arguments):
     try:
         with contextlib.redirect_stderr(io.StringIO()):
-            parameters.install(home, parameters.settings([text]))
+            function(*arguments)
     except SystemExit:
         return True
     return False

@@ -47,3 +47,9 @@ class Level:
 
 
 TRAINING, ANALYSIS = Level(1e-3), Level(2.5e-4)
+
+# Values of surfaces in model files (kit/parameters.py): file, surface, and the path of the value.
+ON_SURFACES = {
+    "HOOK_STIFFNESS": [("tie_downs.ron", "steel", "stiffness")],
+    "HOOK_DAMPING": [("tie_downs.ron", "steel", "normal", "Linear", "damping")],
+}

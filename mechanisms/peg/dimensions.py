@@ -23,3 +23,14 @@ TILT = math.radians(1.0)  # of the peg when nothing pushes
 SLOW, SLOWLY = 0.004, 2.2  # m/s of the feed, and s for which it goes so: until the chamfer is crossed
 SPEED = 0.02  # m/s after that
 LIMIT = 40.0  # N, of a feed that may jam
+
+# Values of surfaces in model files (kit/parameters.py): file, surface, and the path of the value.
+ON_SURFACES = {
+    "STIFFNESS": [("peg.ron", "steel", "stiffness")],
+    "DAMPING": [("peg.ron", "steel", "normal", "Linear", "damping")],
+    "FRICTION": [
+        ("peg.ron", "steel", "friction", "Bristle", "mu"),
+        ("hole.ron", "steel", "friction", "Bristle", "mu"),
+    ],
+    "STICKING_DAMPING": [("peg.ron", "steel", "friction", "Bristle", "damping")],
+}

@@ -83,7 +83,7 @@ def rows(thorough):
         yield "in the hand of the arm, half the step", held.inserted(held.STEP / 2)
 
 
-DRAWN = ("hole",)  # bodies that logs and films show beside what touches
+DRAWN = ("hole", "base", "link_*")  # bodies that logs and films show beside what touches
 
 
 def shown(prepare):

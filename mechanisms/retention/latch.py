@@ -10,6 +10,7 @@ from kit.arm import Arm, Law
 from kit.arm.dimensions import READY
 
 OFF = (0.020, 0.0, 0.050)  # m from the seat: aft, and above
+SEATED = (0.0, 0.0, 0.0)
 LOWER = np.array((0.0, 0.0, -0.005, 0.0, 0.0, 0.0))  # m/s
 PRESS = np.array((0.0, 0.0, -300.0, 0.0, 0.0, 0.0))  # N
 YIELDING = Law(trip=20e3)
@@ -17,15 +18,21 @@ TIMES = {"lower": 18.0, "keel": 22.0, "claws": 31.0}  # s at which each phase en
 
 
 class Berthing:
-    """The machine, its arm and the sequence. `dead`: a claw without motor power."""
+    """The machine, its arm and the sequence. `dead`: a claw without motor power. `begin`: the first phase; from another
+    than `lower` the truss is in its seat at first.
+    """
 
-    def __init__(self, step=d.TRAINING, dead=None):
-        self.machine, self.dead, self.phase = rig.machine(OFF, step), dead, None
+    def __init__(self, step=d.TRAINING, dead=None, begin="lower"):
+        phases = list(TIMES)
+        self.ahead = 0.0 if begin == "lower" else TIMES[phases[phases.index(begin) - 1]]  # s of the sequence left out
+        self.machine = rig.machine(OFF if begin == "lower" else SEATED, step)
+        self.dead, self.phase = dead, None
         self.arm = Arm(self.machine, law=YIELDING)
         self.arm.pose(READY)
 
     def control(self, machine):
-        phase = next((name for name, end in TIMES.items() if machine.time < end - 1e-9), "held")
+        time = machine.time + self.ahead
+        phase = next((name for name, end in TIMES.items() if time < end - 1e-9), "held")
         if phase != self.phase:
             self.phase = phase
             self.arm.command("tip", LOWER if phase == "lower" else None, PRESS if phase == "lower" else None)

@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import rig
+from dimensions import TURN, UPRIGHT_AT
 from kit import mjcf
 from kit.rules import honest
 from kit.rows import Fact, Limit, Row
@@ -90,17 +91,17 @@ def tip(made):
     return float(made.place("peg")[2])
 
 
-TILT, STIFFNESS = rig.tilt_at(0.012), 50.0  # rad; N·m/rad of the spring that holds a peg
+TILT = rig.tilt_at(UPRIGHT_AT)
 
 
 def compliant(step):
     """Held by a spring about its tip, the peg turns upright as it enters; friction in two contacts is 2μ·K(θ₀ − θ)/l."""
-    made = rig.machine(held(TILT, STIFFNESS), step=step)
+    made = rig.machine(held(TILT, TURN), step=step)
     feed = driven(made)
     for depth in (0.03, 0.045, 0.06):
         made.run(10.0, feed, watch=lambda m: -tip(m) > depth)
         angle = TILT + made.joint("turn")
-        push = STIFFNESS * (TILT - angle) / -tip(made)
+        push = TURN * (TILT - angle) / -tip(made)
         yield Row(f"tilt at the depth {depth * 1e3:.0f} mm", angle, rig.tilt_at(-tip(made), push), 0.02, "rad")
         yield Row("force of the feed there", feed_force(made), 2 * rig.FRICTION * push, 0.03, "N")
     yield from honest(made)
@@ -114,7 +115,7 @@ def half_step(depth=0.03):
     for name, step in (("training", rig.TRAINING), ("analysis", rig.ANALYSIS)):
         forces = []
         for each in (step, step / 2):
-            made = rig.machine(held(TILT, STIFFNESS), step=each)
+            made = rig.machine(held(TILT, TURN), step=each)
             made.run(5.0, driven(made), watch=lambda m: -tip(m) > depth)
             forces.append(feed_force(made))
         yield Row(
@@ -124,7 +125,7 @@ def half_step(depth=0.03):
 
 def restarted():
     """Valid while both points touch."""
-    made = rig.machine(held(TILT, STIFFNESS), step=rig.TRAINING)
+    made = rig.machine(held(TILT, TURN), step=rig.TRAINING)
     feed = driven(made)
     made.run(5.0, feed, watch=lambda m: -tip(m) > 0.03)
     middle = made.save()
@@ -135,9 +136,12 @@ def restarted():
     yield Fact("restarted while both places touch: the same bits", made.save().tobytes() == end)
 
 
+ROWS_PER_SECOND = 100  # of logs and films, which show a third of the speed of life
+
+
 def shown(prepare):
     """Run for logs and films: the compliant insertion."""
-    made = rig.machine(held(TILT, STIFFNESS))
+    made = rig.machine(held(TILT, TURN))
     prepare(made)
     made.run(10.0, driven(made), watch=lambda m: -tip(m) > 0.08)
 

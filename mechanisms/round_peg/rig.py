@@ -6,21 +6,15 @@ The bore's axis is z, its mouth at z = 0, the hole below. The peg's origin is th
 import math
 
 import numpy as np
+from dimensions import DAMPING, DEPTH, DIAMETER, FRICTION, HOLE, MASS, STIFFNESS
 
 from kit import mjcf, ron
 from kit.machine import Machine
 
-DIAMETER = 0.050  # d of the peg, m
-HOLE = 0.0502  # D, m
-DEPTH = 0.100  # of the hole, m
-FRICTION = 0.2
-STIFFNESS = 2e6  # N/m of peg on wall
-DAMPING = 200.0  # N·s/m
 SLID = (
     5e-3  # m: a peg that slides goes further in the time that it is given; one that jams may still tilt on its springs
 )
 TRAINING, ANALYSIS = 4e-4, 1e-4  # s
-MASS = 1.0  # kg, all in the middle of the tip, so that loads are given there
 
 
 def peg():

@@ -51,10 +51,10 @@ def motors(made):
 
 def torque_needed(values):
     """Motor torque, N·m. Statics counts in weights: with more cargo the same torque is a smaller share."""
-    mass = model.GROSS_MASS + (values["cargo"] - 1.0) * d.CHASSIS_MASS
-    ahead = values["ahead"] * d.CHASSIS_MASS * values["cargo"] / mass * model.GROSS_MASS / d.CHASSIS_MASS
+    mass = d.GROSS_MASS + (values["cargo"] - 1.0) * d.CHASSIS_MASS
+    ahead = values["ahead"] * d.CHASSIS_MASS * values["cargo"] / mass * d.GROSS_MASS / d.CHASSIS_MASS
     of_weight = statics.needed("front", values["height"], values["friction"], ahead, STRONGEST, 14)
-    return of_weight * mass / model.GROSS_MASS
+    return of_weight * mass / d.GROSS_MASS
 
 
 def attempt(values):

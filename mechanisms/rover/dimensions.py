@@ -28,7 +28,8 @@ HALF_TRACK = model.TRACK / 2
 BOGIE_X, BOGIE_Z = AXLE_X["rear"] / 2, 0.0  # pivot of the bogie on the rocker: even loads of middle and rear
 ROCKER_Z = 0.250  # pivot of the rocker on the chassis, at x = 0: a third of the weight on the front wheels
 ROCKER_MASS, BOGIE_MASS, STEER_MASS = 10.0, 6.0, model.HUB_MASS
-CHASSIS_MASS = model.GROSS_MASS - 2 * (ROCKER_MASS + BOGIE_MASS) - 6 * (STEER_MASS + model.WHEEL_MASS)
+GROSS_MASS = model.GROSS_MASS
+CHASSIS_MASS = GROSS_MASS - 2 * (ROCKER_MASS + BOGIE_MASS) - 6 * (STEER_MASS + model.WHEEL_MASS)
 CHASSIS_Z = 0.350  # of its centre of mass
 PIVOT_DAMPING = 50.0  # of rockers and bogies, N·m·s/rad
 
@@ -60,7 +61,7 @@ def _tyre_heights():
     sys.modules["dimensions"], kept = model, sys.modules.get("dimensions")
     tyre = _of_the_model("tyre")
     sys.modules["dimensions"] = kept
-    weight = model.GROSS_MASS * model.GRAVITY / 6
+    weight = GROSS_MASS * model.GRAVITY / 6
     one = round(tyre.CORNER_WEIGHT / (model.WHEEL_RADIUS - tyre.STATIC_HEIGHT), -1)
     return {
         "fine": tyre.height_under(weight),

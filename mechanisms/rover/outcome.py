@@ -67,7 +67,7 @@ def trade():
     )
     off_middle = max(np.abs(table[:, 6]).max() for table in (exact, rough))
     yield Limit("differential: angles of both rockers, sum", off_middle, 1e-3, "rad")
-    rise = model.GRAVITY * model.GROSS_MASS / 6
+    rise = model.GRAVITY * d.GROSS_MASS / 6
     yield Limit("greatest load on a wheel, of its share at rest", exact[:, 5].max() / rise, 4.0)
 
 

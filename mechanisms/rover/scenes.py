@@ -84,7 +84,7 @@ def circle(places):
 
 def stall_slope(motors=6):
     """Slope on which the stall torque of this number of motors holds the weight, rad."""
-    return math.asin(motors * VOLTAGE * d.STALL_TORQUE / d.AXLE_HEIGHT["rigid"] / (model.GROSS_MASS * model.GRAVITY))
+    return math.asin(motors * VOLTAGE * d.STALL_TORQUE / d.AXLE_HEIGHT["rigid"] / (d.GROSS_MASS * model.GRAVITY))
 
 
 def pulled(angle, dead=(), step=None):

@@ -63,7 +63,7 @@ def mass_center(ahead=0.0):
 def can_climb(climbs, height, torque, friction=model.FRICTION, ahead=0.0):
     """Existence of a balance, and torque of each motor, N·m. Forces in weights of one side of the rover."""
     made, bogie, center = contacts(climbs, height, ahead)
-    pull = torque / model.WHEEL_RADIUS / (model.GROSS_MASS * model.GRAVITY / 2)
+    pull = torque / model.WHEEL_RADIUS / (d.GROSS_MASS * model.GRAVITY / 2)
     columns, limits, room = [], [], []
     for i, (place, normal, tangent) in enumerate(made):
         for direction in (normal, tangent):

@@ -15,3 +15,11 @@ GRAVITY = 9.81  # m/s²
 REACH = 0.6  # m from the tip of the arm to the plane of the feet
 LEAN = 0.02  # rad between the feet and the slope that the arm sets them down on
 PUSH = 300.0  # N, with which the arm presses
+
+# Values of surfaces in model files (kit/parameters.py): file, surface, and the path of the value.
+ON_SURFACES = {
+    "STIFFNESS": [("tripod.ron", "foot", "stiffness")],
+    "DAMPING": [("tripod.ron", "foot", "normal", "Linear", "damping")],
+    "FRICTION": [("tripod.ron", "foot", "friction", "Bristle", "mu"), ("ground.ron", "rock", "friction", "Bristle", "mu")],
+    "STICKING_DAMPING": [("tripod.ron", "foot", "friction", "Bristle", "damping")],
+}

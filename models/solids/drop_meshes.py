@@ -265,9 +265,14 @@ def judged(meshes, folder):
     return fastest, growth / (energies[0] - least)
 
 
+def name_of(meshes):
+    """Name of a run: what falls, on what, on the plane."""
+    return " on ".join([*(mesh.name for mesh in reversed(meshes)), "plane"])
+
+
 def drop(pong, meshes):
     """Row of a run: what was dropped, and what came out; the last field says whether it passed."""
-    what = " on ".join([*(mesh.name for mesh in reversed(meshes)), "plane"])
+    what = name_of(meshes)
     started, note = time.monotonic(), ""
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
@@ -312,6 +317,7 @@ def main():
     parser.add_argument("cache", type=pathlib.Path, nargs="?", help="folder with the meshes of fetch_meshes.py")
     parser.add_argument("--made", action="store_true", help="meshes that this program makes")
     parser.add_argument("--only", metavar="NAME", help="one mesh")
+    parser.add_argument("--without", metavar="RUN", help="leave out a run, named as in the table")
     parser.add_argument("--neighbours", action="store_true", help="drop each mesh on the next one, convex or not")
     parser.add_argument("--triangles-max", type=int, default=100_000, metavar="N", help="leave larger meshes out")
     parser.add_argument("--jobs", type=int, default=1, help="runs side by side")
@@ -328,6 +334,10 @@ def main():
         parser.error(f"no mesh {arguments.only}; use one of {', '.join(mesh.name for mesh in meshes)}")
     alone = [[meshes[i]] for i in chosen]
     pairs = [[below(meshes, i, None if arguments.neighbours else convex), meshes[i]] for i in chosen]
+    if arguments.without is not None:
+        if arguments.without not in map(name_of, alone + pairs):
+            parser.error(f"no run {arguments.without!r}")
+        alone, pairs = ([run for run in runs if name_of(run) != arguments.without] for runs in (alone, pairs))
     print("speed: at the end, over √(g·size); gained: growth of mechanical energy over what was lost")
     results = [table(pong, cases, arguments.jobs) for cases in (alone, pairs)]
     print(f"on the plane {results[0]} of {len(alone)}, on each other {results[1]} of {len(pairs)}")

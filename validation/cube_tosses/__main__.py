@@ -10,7 +10,7 @@ import numpy as np
 from validation.cube_tosses import data, facts, identify, protocol, study
 from validation.cube_tosses.engines.engine import MissingEngine
 from validation.cube_tosses.engines.table import ENGINES
-from validation.kit import plots
+from validation.kit import plots, rotation
 from validation.kit.progress import Progress
 from validation.kit.statistics import interval
 from validation.kit.tables import markdown, versions
@@ -28,7 +28,7 @@ def arguments():
     parser.add_argument("--engines", help=f"only these, by comma: {', '.join(ENGINES)}")
     parser.add_argument("--tosses", type=int, metavar="N", help="only the first N test tosses: a smoke run")
     parser.add_argument(
-        "--part", choices=["facts", "published", "whole", "touch", "steps"], action="append", help="only these parts"
+        "--part", choices=["facts", "published", "whole", "touch", "steps", "noise"], action="append", help="only these parts"
     )
     parser.add_argument(
         "--identify",
@@ -96,7 +96,7 @@ def find(tosses, given, parser):
 def report(tosses, given, chosen):
     """Runs the parts and prints their tables."""
     began = time.monotonic()
-    parts = given.part or ["facts", "published", "whole", "touch", "steps"]
+    parts = given.part or ["facts", "published", "whole", "touch", "steps", "noise"]
     count = given.tosses or len(tosses)
     test = list(protocol.TEST)[:count]
     lines, groups, missing = [f"{versions()}\n"], [], set()
@@ -157,6 +157,9 @@ def report(tosses, given, chosen):
     if "steps" in parts:
         say("## Steps: distance from a run at 0.017 ms, the first 0.15 s, medians\n")
         say(steps(tosses, test))
+    if "noise" in parts:
+        say("## Noise of the start: Pong's linear law against itself, started a little off\n")
+        say(noise(tosses, test))
     for text in sorted(missing):
         say(f"left out: {text}")
     print(f"{time.monotonic() - began:.0f} s")
@@ -171,11 +174,38 @@ def carried(part, chosen):
     return [one for one in study.found("touch", chosen) if one[2].body != "published"]
 
 
-def steps(tosses, test):
-    """Table of the error that steps cause, of Pong's linear law."""
-    entry = next(
+def reference_entry():
+    """Parameters of Pong's linear law, with the inertia found."""
+    return next(
         one for one in identify.load() if (one.engine, one.body, one.window) == ("pong-linear", "inertia", "touch")
     )
+
+
+# Noise of a start: place (m), orientation (rad), velocity (m/s) and angular velocity (rad/s), standard deviations of one axis.
+START_NOISE = (5e-4, np.radians(0.3), 0.01, 0.1)
+
+
+def noise(tosses, test):
+    """Table of the error that a perfect model would have, because starts are known with noise only."""
+    random, engine, rows = np.random.default_rng(1), reference_entry().made(), []
+    for title, window in (("first 0.15 s", "touch"), ("whole toss", "whole")):
+        errors = []
+        for case in identify.WINDOWS[window](tosses, test[:100]):
+            poses, start = engine.poses(case), case.start.copy()
+            place, turn, velocity, spin = (deviation * random.normal(size=3) for deviation in START_NOISE)
+            start[data.POSITION] += place
+            start[data.ORIENTATION] = rotation.product(rotation.of_rotation_vector(turn), start[data.ORIENTATION])
+            start[data.VELOCITY] += velocity
+            start[data.ANGULAR_VELOCITY] += spin
+            off = engine.poses(protocol.Case(case.number, start, case.measured))
+            errors.append(protocol.errors(protocol.Case(case.number, start, poses), off).e_q)
+        rows.append([title, interval(np.array(errors)).text(4), f"{np.median(errors):.4f}"])
+    return markdown(["window", "e_q", "median e_q"], rows)
+
+
+def steps(tosses, test):
+    """Table of the error that steps cause, of Pong's linear law."""
+    entry = reference_entry()
     cases = protocol.after_touch(tosses, test[:100])
     reference = [entry.made(substeps=400).poses(case) for case in cases]
     rows = []

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from validation.cube_tosses import data, facts, identify, momentum, protocol, study
+from validation.cube_tosses import data, facts, for_fit, identify, momentum, protocol, study
 from validation.cube_tosses.engines.engine import MissingEngine
 from validation.cube_tosses.engines.table import ENGINES, make
 from validation.kit import rotation
@@ -39,6 +39,16 @@ class Data(unittest.TestCase):
             data.DataError, "nowhere.npz: there is no such file; the tosses come with the repository"
         ):
             data.load("nowhere.npz")
+
+    def test_records_for_a_fit_begin_two_frames_before_the_touch(self):
+        chosen = for_fit.records(TOSSES)
+        self.assertEqual(len(chosen), for_fit.RECORDS)
+        for _, states in chosen:
+            self.assertTrue((data.lowest_corner(states[: for_fit.BEFORE]) >= 0.0).all())
+            self.assertLess(data.lowest_corner(states[for_fit.BEFORE]), 0.0)
+        lines = for_fit.text(chosen[:2]).splitlines()
+        self.assertEqual(len(lines), len(for_fit.NOISE) + 2 + 2 * for_fit.FRAMES)
+        self.assertTrue(all(line.count(",") == for_fit.COLUMNS.count(",") for line in lines[-52:]))
 
     def test_a_file_of_another_layout_is_refused(self):
         with tempfile.TemporaryDirectory() as folder:

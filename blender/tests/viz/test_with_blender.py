@@ -369,13 +369,20 @@ class Renders(WithScene):
         clip = bpy.data.movieclips.load(str(film))
         self.assertEqual((tuple(clip.size), clip.frame_duration), ((160, 90), 6))
 
-    def test_a_quick_film_has_no_shadows(self):
-        for words, shadows in ((["--quick"], False), ([], True)):
+    def test_a_quick_film_has_no_shadows_and_smooths_as_told(self):
+        for words, shadows, smoothing in (
+            (["--quick"], False, "FXAA"), ([], True, "8"), (["--quick", "--no-smoothing"], False, "OFF"),
+        ):
             made = self.folder / "made.blend"
             self.assertEqual(main([str(self.log_folder), *words, "--blend", str(made)]), 0)
             bpy.ops.wm.open_mainfile(filepath=str(made))
             display = bpy.context.scene.display
-            self.assertEqual((display.shading.show_shadows, display.render_aa), (shadows, "8" if shadows else "FXAA"))
+            self.assertEqual((display.shading.show_shadows, display.render_aa), (shadows, smoothing))
+
+    def test_marks_have_the_radius_that_is_given(self):
+        made = show(Log(self.log_folder), Options(mark_radius=0.02), bpy.context.scene)
+        radii = sorted(made.marks[0].scale)
+        np.testing.assert_allclose(radii, [0.02 / 3.0, 0.02, 0.02], rtol=1e-6)
 
     def test_odd_sizes_make_a_film_too_and_old_pictures_go(self):
         frames, film = self.folder / "frames", self.folder / "film.mp4"

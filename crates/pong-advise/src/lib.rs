@@ -8,6 +8,7 @@
 //! | file | content |
 //! |---|---|
 //! | `coupling.rs` | the longest stable step of one contact, by the use of its force |
+//! | `delay.rs` | the critical delay of one contact |
 //! | `bounce.rs` | closed forms of a bounce; error of a bounce at a given step |
 //! | `contact.rs` | stiffness and damping from depth, restitution, mass and speed |
 //! | `mass.rs`, `spring.rs` | the host's masses and step; springs and dampers of surfaces |
@@ -30,6 +31,7 @@ mod bounce;
 mod check;
 mod contact;
 mod coupling;
+mod delay;
 mod footprint;
 mod limits;
 mod mass;
@@ -54,6 +56,7 @@ pub use bounce::{Accuracy, BounceError, bounce_error, depth_factor, resolved_ste
 pub use check::{StepReport, step_report, step_report_with};
 pub use contact::{ContactAdvice, ContactWish, advise_contact, critical_damping};
 pub use coupling::longest_stable_step;
+pub use delay::critical_delay;
 pub use limits::{BounceLimit, GroupLimits, PairLimits, SpringLimit, judge_contact};
 pub use mass::{GroupMass, Joints, SpringRates, StepPlan};
 pub use pong_engine::WrenchCoupling;

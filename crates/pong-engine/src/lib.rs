@@ -44,6 +44,7 @@ mod runtime;
 mod scene;
 mod seal;
 mod state;
+mod tangent;
 mod world;
 
 pub use builder::{SealError, WorldBuilder};
@@ -56,8 +57,8 @@ pub use ids::{InterfaceId, ModelId, ObjectId, PairId};
 pub use law::friction::{FrictionForce, FrictionInput, FrictionOutput};
 pub use law::registry::Laws;
 pub use law::{
-    CombineError, FrictionProps, NormalForce, NormalInput, NormalProps, NormalTangent, PairProps,
-    combine as combine_surfaces,
+    CombineError, ContactTangent, FrictionProps, NormalForce, NormalInput, NormalProps, NormalTangent,
+    PairProps, combine as combine_surfaces,
 };
 pub use pair_monitor::{ContactChange, PairMonitor, PairPeaks};
 pub use pong_threads::{ThreadWork, WorkerStart};
@@ -68,4 +69,5 @@ pub use report::{
 pub use scene::{Config, Scene, State, SurfaceMotion, WorkerSettings};
 pub use seal::{MetIn, SealReport, SetupNote, SetupWarning};
 pub use state::StateError;
+pub use tangent::{PairTangent, TangentMatrix};
 pub use world::{Continuation, GroupDistance, NearestPrimitive, World};

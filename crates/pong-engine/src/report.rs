@@ -42,6 +42,12 @@ impl StatusBits {
         self.contains(Self::CONTACT_LIMIT) || self.contains(Self::LOAD_SHARING_LIMIT)
     }
 
+    /// Flags that are set here or in `other`, for a host that joins the frames of several substeps.
+    #[must_use]
+    pub fn union(self, other: Self) -> Self {
+        Self(self.0 | other.0)
+    }
+
     /// The flags as a number.
     pub fn bits(self) -> u32 {
         self.0

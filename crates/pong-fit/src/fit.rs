@@ -21,6 +21,9 @@ const FOLLOWED: usize = 3;
 /// Least number of records that are split; fewer are split in time.
 const SPLIT: usize = 4;
 
+/// Weighted error above which the data and the scene cannot be meant for each other.
+const FAR_OFF: f64 = 30.0;
+
 /// Correlation from which on two parameters are reported as moving together.
 pub(crate) const TOGETHER: f64 = 0.9;
 
@@ -305,6 +308,13 @@ impl Study<'_> {
         let parameters = self.estimates(&best, &around, &profiles, peak_force);
         let correlations = around.correlations();
         self.tell_shortfalls(&best, &parameters, &correlations, &tries);
+        if train.weighted > FAR_OFF {
+            self.notes.push(format!(
+                "data: at the optimum the runs still miss the measurements by {:.0} standard deviations of the sensors, more than \
+                 a law of contact is wrong by; look at the units, the axes, the places of the scene's bodies and the noise given",
+                train.weighted
+            ));
+        }
         let to_paste = crate::paste::texts(&mut self.trials, &best.z)?;
         Ok(Fit {
             scene: scene.to_owned(),

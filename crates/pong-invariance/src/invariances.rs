@@ -3,7 +3,7 @@
 use crate::base::Base;
 use crate::judge::{Verdict, compare};
 use crate::make;
-use crate::properties::{friction, memory, sides};
+use crate::properties::{friction, memory, sides, tangent};
 use crate::random::Random;
 use crate::scene::Scene;
 use crate::twin::{Twin, manner, place, shape};
@@ -121,6 +121,13 @@ pub const INVARIANCES: &[Invariance] = &[
         1,
         None,
         friction::committed_again,
+    ),
+    property(
+        "tangent",
+        "derivatives of the wrenches are those of central differences, to 1e-6",
+        16,
+        None,
+        tangent::of_differences,
     ),
     property(
         "beside",

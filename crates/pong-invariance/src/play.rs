@@ -52,7 +52,8 @@ pub struct Stage {
     /// The world.
     pub world: World,
     objects: [ObjectId; 2],
-    groups: [InterfaceId; 2],
+    /// The movable groups of both bodies.
+    pub groups: [InterfaceId; 2],
     /// Motions of the surfaces of both groups, frame by frame; empty if none moves.
     motions: Vec<[SurfaceMotion; 2]>,
 }

@@ -13,7 +13,7 @@ pub mod samples;
 pub mod worlds;
 
 pub use random::Random;
-pub use samples::samples;
+pub use samples::{long_samples, samples};
 
 use std::path::{Path, PathBuf};
 

@@ -1,6 +1,6 @@
 //! The size of a test that draws samples: `PONG_TESTS=quick` (the default) takes a tenth of them, `PONG_TESTS=full` all, and
-//! `PONG_TESTS=night` all, with 1e5 random poses. A short run draws the first samples of a longer one, so that a failure of
-//! either can be repeated in the other.
+//! `PONG_TESTS=night` more of those that take long, and 1e5 random poses. A short run draws the first samples of a longer one,
+//! so that a failure of either can be repeated in the other.
 
 use std::sync::OnceLock;
 
@@ -40,6 +40,16 @@ pub fn samples(all: usize) -> usize {
     let (name, count) = if is_full() { ("full", all) } else { ("quick", all.div_ceil(10)) };
     println!("{SETTING}={name}: {count} of {all} samples");
     count
+}
+
+/// Samples of a test that takes long: `night` of them in a run of the night, `full` in a full run and a tenth of `full`, rounded
+/// up, in a quick one.
+pub fn long_samples(full: usize, night: usize) -> usize {
+    if size() < Size::Night {
+        return samples(full);
+    }
+    println!("{SETTING}=night: {night} samples");
+    night
 }
 
 /// Random poses of each property of a pair of solids: 100 in a quick run, 1,000 in a full one, 1e5 in a long one.

@@ -2,7 +2,7 @@
 
 use super::arguments::Arguments;
 use crate::text::number;
-use pong_advise::{ContactAdvice, ContactWish, WrenchCoupling, advise_contact};
+use pong_advise::{ContactAdvice, ContactWish, WrenchCoupling, advise_contact, critical_delay};
 
 /// The advice for the desired depth and restitution.
 pub(super) fn advice(
@@ -42,6 +42,7 @@ fn told(arguments: &Arguments, wish: &ContactWish, advice: &ContactAdvice) -> St
     line("touch to release", advice.duration, "s");
     line("accurate to", advice.accurate_step, "s");
     line("stable to", advice.stable_step, "s");
+    line("critical delay", critical_delay(advice.stiffness, advice.damping, wish.mass), "s");
     text += &surface(advice, share, arguments.contacts);
     text += &verdict(wish, advice);
     text

@@ -2,7 +2,8 @@
 
 use crate::text::{count, number};
 use pong_advise::{
-    GroupLimits, PairLimits, SpringLimit, StepPlan, StepReport, critical_damping, longest_stable_step,
+    GroupLimits, PairLimits, SpringLimit, StepPlan, StepReport, critical_damping, critical_delay,
+    longest_stable_step,
 };
 use pong_model::printable;
 use pong_report::table;
@@ -31,6 +32,7 @@ pub(super) fn told(report: &StepReport, plan: &StepPlan, friction_share: f64) ->
                      farther off: ask without a file, with `--contacts n`.\n";
         }
         text += &friction(report, plan, friction_share);
+        text += &delays(report, plan);
     }
     text += &together(report);
     text += &first_to_fail(report, plan);
@@ -77,6 +79,35 @@ fn friction(report: &StepReport, plan: &StepPlan, share: f64) -> String {
     let rows: Vec<Vec<String>> = springs.iter().map(row).collect();
     "What sticks, as a spring on the mass that it feels along the surface (docs/advise.md, Damping of friction):\n".to_owned()
         + &table::aligned(&heading, &rows)
+}
+
+/// Delays beyond which contacts gain energy, where the host holds the wrench.
+fn delays(report: &StepReport, plan: &StepPlan) -> String {
+    let lag = plan.coupling.lag() * plan.step;
+    if lag == 0.0 {
+        return String::new();
+    }
+    let row = |pair: &PairLimits| {
+        let spring = pair.normal.spring;
+        let delay = critical_delay(spring.stiffness, spring.damping, pair.normal.mass);
+        let verdict = if lag < delay { "loses energy" } else { "gains energy" };
+        vec![
+            format!("{} · {}", pair.groups[0], pair.groups[1]),
+            number(delay),
+            number(lag),
+            verdict.to_owned(),
+        ]
+    };
+    let springs = report.pairs.iter().filter(|pair| pair.normal.spring.stiffness > 0.0);
+    let rows: Vec<Vec<String>> = springs.map(row).collect();
+    if rows.is_empty() {
+        return String::new();
+    }
+    "How late a wrench may act (docs/advise.md, Late wrenches):\n".to_owned()
+        + &table::aligned(
+            &["late wrench between", "critical delay s", "mean delay s", "a contact that lasts"],
+            &rows,
+        )
 }
 
 /// Contacts that can act on one movable group at once.

@@ -55,6 +55,16 @@ pub struct NormalTangent {
     pub damping: f64,
 }
 
+/// Stiffness and damping that act in one contact, weights included.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ContactTangent {
+    /// Derivatives of the normal force; zero where it is cut at zero.
+    pub normal: NormalTangent,
+    /// Stiffness, N/m, and damping, N·s/m, of the bristle while it sticks. Zero while it slips, where its force
+    /// follows the load and the direction of the slip, and for laws without a bristle.
+    pub tangential: NormalTangent,
+}
+
 /// Derivatives of [`normal_force`] at a depth and rate; zero where the force is cut at zero, `None` for a
 /// host's law.
 pub(crate) fn normal_tangent(props: &PairProps, w: f64, depth: f64, rate: f64) -> Option<NormalTangent> {

@@ -18,6 +18,11 @@ impl SurfaceField {
         Self { linear, angular, belt }
     }
 
+    /// Linear part, angular part, belt part.
+    pub fn parts(&self) -> [Vec3; 3] {
+        [self.linear, self.angular, self.belt]
+    }
+
     /// Angular part: rad/s or rad.
     pub fn angular(&self) -> &Vec3 {
         &self.angular

@@ -9,6 +9,7 @@
 //! | `distance.rs` | distance of two movable groups |
 //! | `energy.rs` | energies of the last commit |
 //! | `contact_state.rs` | the contact state as a block of bytes |
+//! | `tangent.rs`, `differences.rs` | derivatives of the wrenches of the last frame |
 //! | `standing.rs` | poses that contradict velocities |
 //! | `workers.rs` | workers, and the times of a frame |
 //! | `clone.rs` | clones of a world |
@@ -18,12 +19,14 @@ mod changes;
 mod clone;
 mod contact_state;
 mod continuation;
+mod differences;
 mod distance;
 mod energy;
 mod frame;
 mod pair_wrench;
 mod results;
 mod standing;
+mod tangent;
 mod workers;
 
 pub use continuation::Continuation;

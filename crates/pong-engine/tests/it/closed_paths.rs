@@ -3,7 +3,7 @@
 
 use crate::common::*;
 use pong_geometry::{Quat, Vec3};
-use pong_testkit::{Random, samples};
+use pong_testkit::{Random, long_samples};
 
 const K: f64 = 1e4;
 /// Loops of one pair of parts.
@@ -126,7 +126,7 @@ fn check_closed_paths(
     let mut random = Random(31);
     let mut rig = Rig::new(a, b);
     let (mut touched, mut worst_gain, mut worst_loss) = (0, 0.0_f64, 0.0_f64);
-    let (loops, touching) = (samples(LOOPS), samples(6));
+    let (loops, touching) = (long_samples(LOOPS / 2, LOOPS), long_samples(3, 6));
     for number in 0..LOOPS {
         // A short run ends when enough have touched.
         if number >= loops && touched >= touching {

@@ -42,6 +42,7 @@ mod solids_state;
 mod sums;
 mod surface_pairs;
 mod symptoms;
+mod tangents;
 mod times;
 mod tunnelling;
 mod written_tables;

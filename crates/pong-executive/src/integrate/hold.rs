@@ -16,7 +16,7 @@ pub(crate) struct Held {
 
 impl Held {
     /// Queues the wrenches of this frame and returns those of `delay_frames` ago; zero before the first.
-    fn exchange(&mut self, fresh: &[Wrench], delay_frames: u32) -> Vec<Wrench> {
+    pub fn exchange(&mut self, fresh: &[Wrench], delay_frames: u32) -> Vec<Wrench> {
         self.waiting.push_back(fresh.to_vec());
         if self.waiting.len() <= delay_frames as usize {
             return vec![Wrench::zero(); fresh.len()];

@@ -289,5 +289,12 @@ fn check_head(document: &Document, faults: &mut Faults<'_>) {
     if let Integrator::ZeroOrderHold { substeps: 0, .. } = document.integrator {
         faults.note("integrator", "0 substeps leave nothing to integrate", "give at least one substep");
     }
+    if let Integrator::LongFrame { substeps_max, delay_frames } = document.integrator
+        && (substeps_max == 0 || delay_frames > pong_slow::Settings::DELAY_FRAMES_MAX)
+    {
+        let most = pong_slow::Settings::DELAY_FRAMES_MAX;
+        let cause = format!("{substeps_max} substeps and {delay_frames} delay frames cannot be followed");
+        faults.note("integrator", cause, format!("give at least 1 substep and at most {most} delay frames"));
+    }
     faults.at("gravity").finite("gravity", &document.gravity);
 }

@@ -31,7 +31,10 @@ const FIELDS: [(&str, &str); 20] = [
     ("moment", "write moment: (x, y, z), N·m"),
     ("stiffness", "write stiffness: (x, y, z, about x, about y, about z), N/m and N·m/rad"),
     ("damping", "write damping: (x, y, z, about x, about y, about z), N·s/m and N·m·s/rad"),
-    ("integrator", "write integrator: RungeKutta4, SemiImplicitEuler or ZeroOrderHold(substeps: 1)"),
+    (
+        "integrator",
+        "write integrator: RungeKutta4, SemiImplicitEuler, ZeroOrderHold(substeps: 1) or LongFrame()",
+    ),
 ];
 
 /// The fault of a text that is not a scene, from the reader's error.

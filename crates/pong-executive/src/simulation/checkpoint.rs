@@ -7,7 +7,8 @@
 //! | per free body: FreeState::EXACT_NUMBERS × 8
 //! | per body: motion 13 × 8, contact wrench and external wrench 6 × 8 each, led 8, and if it is: since, pose, twist 14 × 8
 //! | per wrench on its way and body: 6 × 8
-//! | contact state: length 8, block | checksum 8 (FNV-1a of everything before)
+//! | contact state: length 8, block
+//! | with long frames: memory of the copies, to the end | checksum 8 (FNV-1a of everything before)
 //! ```
 //!
 //! Little-endian, without pointers. Masses, loads, springs, paths and models are not part of it: they are set-up.
@@ -16,10 +17,12 @@ use super::Simulation;
 use crate::body::Motion;
 use crate::energy::Powers;
 use crate::error::{ExecutiveError, Result};
+use crate::integrate::{Integrator, long_frame_settings, refused};
 use crate::path::Path;
 use crate::state::FreeState;
 use pong_geometry::{Pose, Quat, Twist, Vec3, Wrench};
 use pong_model::Fnv;
+use pong_slow::SlowHost;
 
 const MAGIC: &[u8; 8] = b"PONGEXEC";
 const VERSION: u64 = 1;
@@ -56,6 +59,9 @@ impl Simulation {
         self.system.world.save_state_packed(&mut block);
         word(out, block.len() as u64);
         out.extend_from_slice(&block);
+        if let Some(host) = &self.long_frames.host {
+            out.extend(host.save_state());
+        }
         let checksum = Fnv::of(&out[begin..]);
         word(out, checksum);
     }
@@ -70,7 +76,17 @@ impl Simulation {
             .read(bytes)
             .map_err(|(cause, cure)| ExecutiveError::invalid("saved instant", cause, cure))?;
         // The engine refuses as a whole, too; nothing after this line can fail.
+        let mut copies = None;
+        if let (Integrator::LongFrame { substeps_max, delay_frames }, false) =
+            (self.integrator, instant.copies.is_empty())
+        {
+            let settings = long_frame_settings(substeps_max, delay_frames);
+            let mut host = SlowHost::new(&self.system.world, settings).map_err(refused)?;
+            host.restore_state(instant.copies).map_err(refused)?;
+            copies = Some(host);
+        }
         self.system.world.restore_state(instant.block)?;
+        self.long_frames.host = copies;
         (self.step, self.epoch, self.steps, self.settled) =
             (instant.step, instant.epoch, instant.steps, instant.settled);
         self.reference = None;
@@ -123,10 +139,11 @@ impl Simulation {
             waiting.push(wrenches.collect::<Result<Vec<_>, Refusal>>()?);
         }
         let length = reader.word()?;
-        if length != reader.bytes.len() as u64 {
+        let has_copies = matches!(self.integrator, Integrator::LongFrame { .. });
+        if length > reader.bytes.len() as u64 || (!has_copies && length != reader.bytes.len() as u64) {
             return Err(DAMAGED);
         }
-        let block = reader.bytes;
+        let (block, copies) = reader.bytes.split_at(length as usize);
         let (bodies, held) = (saved, waiting);
         Ok(Instant {
             step,
@@ -141,6 +158,7 @@ impl Simulation {
             bodies,
             held,
             block,
+            copies,
         })
     }
 }
@@ -167,6 +185,8 @@ struct Instant<'b> {
     bodies: Vec<SavedBody>,
     held: Vec<Vec<Wrench>>,
     block: &'b [u8],
+    /// Memory of the copies of long frames; empty without.
+    copies: &'b [u8],
 }
 
 struct SavedBody {

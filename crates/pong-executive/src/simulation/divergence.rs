@@ -33,6 +33,8 @@ impl Simulation {
     pub(super) fn disturbed(&mut self) {
         self.settled = false;
         self.reference = None;
+        // Copies begin anew at the bodies, in a clone of the world as it is then.
+        self.long_frames.host = None;
     }
 
     /// Takes the present instant as the reference if there is none.

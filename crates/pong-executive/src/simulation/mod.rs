@@ -11,7 +11,9 @@ mod view;
 use crate::body::BodyId;
 use crate::energy::Powers;
 use crate::error::{ExecutiveError, Result};
-use crate::integrate::{Contact, Held, Integrator, Stages, euler, hold, runge_kutta};
+use crate::integrate::{
+    Contact, Held, Integrator, LongFrames, Stages, euler, hold, long_frame_settings, runge_kutta,
+};
 use crate::state::FreeState;
 use crate::system::System;
 use pong_engine::{FrictionPreload, PairId, World};
@@ -51,6 +53,7 @@ pub struct Simulation {
     settled: bool,
     stages: Stages,
     held: Held,
+    long_frames: LongFrames,
     powers: Powers,
     spring_loss: f64,
     work_in: f64,
@@ -75,6 +78,10 @@ impl Simulation {
                 cure,
             ));
         }
+        if let Integrator::LongFrame { substeps_max, delay_frames } = integrator {
+            // Refuses settings outside their ranges.
+            LongFrames::default().prepare(&world, long_frame_settings(substeps_max, delay_frames))?;
+        }
         Ok(Self {
             system: System::new(world),
             states: Vec::new(),
@@ -87,6 +94,7 @@ impl Simulation {
             settled: false,
             stages: Stages::default(),
             held: Held::default(),
+            long_frames: LongFrames::default(),
             powers: Powers::default(),
             spring_loss: 0.0,
             work_in: 0.0,
@@ -104,10 +112,19 @@ impl Simulation {
         if !self.settled {
             self.system.place(self.time(), &self.states);
             self.system.touch_and_commit(self.time())?;
+            self.follow_copies()?;
             self.powers = self.system.powers(self.time());
             self.settled = true;
         }
         Ok(())
+    }
+
+    /// Replaces the wrenches of contact by those to hold over a long frame.
+    fn follow_copies(&mut self) -> Result<()> {
+        let Integrator::LongFrame { substeps_max, delay_frames } = self.integrator else { return Ok(()) };
+        let settings = long_frame_settings(substeps_max, delay_frames);
+        let times = (self.time(), self.step);
+        self.long_frames.follow(&mut self.system, &self.states, settings, times)
     }
 
     /// Preloads friction between two paired Objects as they are placed now ([`World::preload_friction`]): before the first step.
@@ -151,6 +168,10 @@ impl Simulation {
             Integrator::RungeKutta4 => runge_kutta(system, states, stages, &Contact::Fresh, time, h)?,
             Integrator::ZeroOrderHold { substeps, delay_frames } => {
                 hold(system, states, (stages, held), (substeps, delay_frames), time, h)?;
+            }
+            Integrator::LongFrame { delay_frames, .. } => {
+                system.contact = held.exchange(&system.contact, delay_frames);
+                euler(system, states, stages, time, h);
             }
         }
         self.steps += 1;

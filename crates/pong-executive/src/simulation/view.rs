@@ -63,7 +63,11 @@ impl Simulation {
     /// Step and integrator as the step adviser takes them, and the initial closing speed of the scene. Every
     /// check of the step begins with this plan, so that all of them agree.
     pub fn step_plan(&self) -> StepPlan {
-        let plan = StepPlan::new(self.step, self.integrator.coupling());
+        let step = match self.integrator {
+            Integrator::LongFrame { substeps_max, .. } => self.step / f64::from(substeps_max),
+            _ => self.step,
+        };
+        let plan = StepPlan::new(step, self.integrator.coupling());
         StepPlan { closing_speed: self.closing_speed(), fall_speed: self.fall_speed(), ..plan }
     }
 
@@ -124,6 +128,12 @@ impl Simulation {
     /// The world: contacts, wrenches and counts of the present instant.
     pub fn world(&self) -> &World {
         &self.system.world
+    }
+
+    /// Report of the last long frame ([`Integrator::LongFrame`]); `None` with other integrators and before the first
+    /// frame.
+    pub fn long_frame_report(&self) -> Option<&pong_slow::Report> {
+        self.long_frames.host.as_ref().map(pong_slow::SlowHost::report)
     }
 
     /// The world, to clear contact history, switch pairs or change surfaces between steps. The present states

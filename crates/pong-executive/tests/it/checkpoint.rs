@@ -28,8 +28,14 @@ fn saved(simulation: &Simulation) -> Vec<u8> {
     bytes
 }
 
-const INTEGRATORS: [&str; 4] =
-    ["RungeKutta4", "SemiImplicitEuler", "ZeroOrderHold()", "ZeroOrderHold(substeps: 2, delay_frames: 2)"];
+const INTEGRATORS: [&str; 6] = [
+    "RungeKutta4",
+    "SemiImplicitEuler",
+    "ZeroOrderHold()",
+    "ZeroOrderHold(substeps: 2, delay_frames: 2)",
+    "LongFrame()",
+    "LongFrame(substeps_max: 500, delay_frames: 2)",
+];
 
 #[test]
 fn a_restored_simulation_goes_on_with_the_same_bits() {

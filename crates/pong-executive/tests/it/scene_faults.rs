@@ -157,7 +157,7 @@ fn a_field_of_another_notation_is_named_with_its_own() {
         ("Fixed)", "Fixed, position: 1.0)", "field `position`: ", "write position: (x, y, z), m"),
         ("Fixed)", "fixed)", "field `motion`: ", "Free, Fixed or Prescribed"),
         ("pairs: []", "pairs: [\"a\"]", "field `pairs`: ", "pairs: [(\"ball\", \"ground\"), …]"),
-        ("RungeKutta4", "\"rk4\"", "field `integrator`: ", "RungeKutta4, SemiImplicitEuler or ZeroOrderHold"),
+        ("RungeKutta4", "\"rk4\"", "field `integrator`: ", "RungeKutta4, SemiImplicitEuler, ZeroOrderHold"),
     ];
     for (replace, by, field, cure) in cases {
         let told = errors(&scene(replace, by), &folder);

@@ -4,8 +4,8 @@ use pong_engine::{Config, InterfaceId, WorldBuilder};
 use pong_executive::{BodyId, Integrator, MassProperties, Pose, Quat, RigidBody, Simulation, Twist, Vec3};
 use pong_model::Extensions;
 use pong_testkit::Random;
+use pong_testkit::long_samples;
 use pong_testkit::ron::box_polyhedron;
-use pong_testkit::samples::samples;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
@@ -173,7 +173,7 @@ fn equal_boxes_stacked_edge_on_edge_stand() {
 /// Random stacks of equal and unequal boxes whose centres of mass are supported: all rest.
 #[test]
 fn random_stacks_rest() {
-    let count = samples(400);
+    let count = long_samples(80, 400);
     let mut random = Random::new(46, 0, 0);
     let mut fallen = Vec::new();
     for number in 0..count {

@@ -1,11 +1,11 @@
-//! Checks of measured data by the kinematics that they must obey: gaps, units, order of quaternions, axes of
-//! angular velocities.
+//! Checks of measured data by the kinematics that they must obey: gaps, units, order and direction of
+//! quaternions, axes of angular velocities.
 //!
 //! A pose, a velocity and an angular velocity are three measurements of one motion. Integrated over an
 //! interval the last two must give the change of the first. Contacts disturb few of the intervals, so the
 //! median over all of them judges.
 
-use super::record::{Data, Record, Row};
+use super::record::{Data, Quantity, Record, Row};
 use pong_geometry::pose::rotation_vector;
 use pong_geometry::{Quat, Vec3};
 
@@ -26,6 +26,9 @@ const FALLS: usize = 4;
 
 /// Factor between the misses of two readings of a rotation at which the better one is believed.
 const CLEARLY: f64 = 3.0;
+
+/// Share of the rotation in an interval from which on a miss that no reading explains is noted.
+const MISSES: f64 = 0.5;
 
 /// Result of the checks: each line has thing, cause and cure.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -67,18 +70,26 @@ fn median(mut values: Vec<f64>) -> f64 {
     values.get(values.len() / 2).copied().unwrap_or(f64::NAN)
 }
 
+/// Rows in which something was measured: a line whose cells are empty is no measurement.
+fn measured(record: &Record) -> impl Iterator<Item = &Row> {
+    let something = |row: &&Row| Quantity::ALL.into_iter().any(|quantity| row.has(quantity));
+    record.rows.iter().filter(something)
+}
+
 fn gaps(data: &Data, checked: &mut Checked) {
     let mut noted = 0;
     for record in &data.records {
-        let steps: Vec<f64> = record.times.windows(2).map(|pair| pair[1] - pair[0]).collect();
+        let mut times: Vec<f64> = measured(record).map(|row| record.times[row.time]).collect();
+        times.dedup();
+        let steps: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();
         let usual = median(steps.clone());
-        for (place, step) in steps.iter().enumerate().filter(|(_, step)| **step > GAP * usual) {
+        for (time, step) in times.iter().zip(&steps).filter(|(_, step)| **step > GAP * usual) {
             noted += 1;
             if noted <= 5 {
                 checked.notes.push(format!(
-                    "record `{}`: a gap of {step:.4} s after {:.4} s, where the usual interval is {usual:.4} s; nothing is filled \
+                    "record `{}`: a gap of {step:.4} s after {time:.4} s, where the usual interval is {usual:.4} s; nothing is filled \
                      in, and the run goes on through it",
-                    record.name, record.times[place],
+                    record.name,
                 ));
             }
         }
@@ -126,12 +137,53 @@ fn velocity(body: &str, pairs: &[Interval<'_>], checked: &mut Checked) {
     }
 }
 
-/// Readings of a measured rotation: the order of the quaternion, and the axes of the angular velocity.
-const READINGS: [(bool, bool); 4] = [(false, false), (false, true), (true, false), (true, true)];
+/// Another reading of a measured rotation than the one that the file states.
+#[derive(Clone, Copy)]
+struct Reading {
+    /// True if the components of the quaternion are x, y, z, w under the names of w, x, y, z.
+    reordered: bool,
+    /// True if the quaternion turns the common frame into the group frame.
+    inverse: bool,
+    /// True if the angular velocity is along the other axes.
+    other_axes: bool,
+}
 
-/// Quaternion whose components were given in the order x, y, z, w under the names of w, x, y, z.
-fn reordered(q: &Quat) -> Quat {
-    pong_geometry::Pose::new(Vec3::zeros(), [q.k, q.w, q.i, q.j]).orientation
+/// All readings; the first is that of the file.
+fn readings() -> [Reading; 8] {
+    std::array::from_fn(|bits| Reading {
+        other_axes: bits & 1 != 0,
+        reordered: bits & 2 != 0,
+        inverse: bits & 4 != 0,
+    })
+}
+
+impl Reading {
+    /// Orientation of the group in the common frame.
+    fn orientation(self, q: &Quat) -> Quat {
+        let [w, x, y, z] = if self.reordered { [q.k, q.w, q.i, q.j] } else { [q.w, q.i, q.j, q.k] };
+        let read = pong_geometry::Pose::new(Vec3::zeros(), [w, x, y, z]).orientation;
+        if self.inverse { read.inverse() } else { read }
+    }
+
+    /// Changes of the file that give this reading.
+    fn cures(self, along_body: bool) -> Vec<String> {
+        let mut cures = Vec::new();
+        if self.reordered {
+            let cure = "the quaternions are in the order x, y, z, w: name the columns qx,qy,qz,qw";
+            cures.push(cure.to_owned());
+        }
+        if self.inverse {
+            let cure = "the quaternions turn the common frame into that of the group: change the sign of qx, qy and qz";
+            cures.push(cure.to_owned());
+        }
+        if self.other_axes {
+            let axes = if along_body { "common" } else { "body" };
+            cures.push(format!(
+                "the angular velocity is along the other axes: write `# angular_velocity = {axes}`"
+            ));
+        }
+        cures
+    }
 }
 
 fn rotation(body: &str, pairs: &[Interval<'_>], along_body: bool, checked: &mut Checked) {
@@ -145,8 +197,8 @@ fn rotation(body: &str, pairs: &[Interval<'_>], along_body: bool, checked: &mut 
         (std::f64::consts::TAU, "turns/s"),
         (60.0 / std::f64::consts::TAU, "turns/min"),
     ];
-    let ratio = |(a, b, dt): &&Interval<'_>| {
-        let turned = rotation_vector(&(b.orientation? * a.orientation?.inverse())).norm();
+    let ratio = |pair: &&Interval<'_>| {
+        let ((a, b, dt), turned) = (pair, turned(pair)?);
         let spun = (a.angular_velocity? + b.angular_velocity?).norm() * 0.5 * dt;
         (turned > 0.0).then(|| spun / turned)
     };
@@ -169,42 +221,44 @@ fn rotation(body: &str, pairs: &[Interval<'_>], along_body: bool, checked: &mut 
         ));
         return;
     }
+    let readings = readings();
     let miss = |reading| median(turning.iter().filter_map(|pair| miss(pair, along_body, reading)).collect());
-    let misses = READINGS.map(miss);
-    let best = (0..4).min_by(|a, b| misses[*a].total_cmp(&misses[*b])).unwrap_or(0);
+    let misses = readings.map(miss);
+    let best = (0..readings.len()).min_by(|a, b| misses[*a].total_cmp(&misses[*b])).unwrap_or(0);
+    let turned = median(turning.iter().filter_map(|pair| turned(pair)).collect());
+    let degrees = |radians: f64| radians * 180.0 / std::f64::consts::PI;
     if misses[0] > CLEARLY * misses[best] {
-        let (order, axes) = READINGS[best];
-        let mut cures = Vec::new();
-        if order {
-            cures
-                .push("the quaternions are in the order x, y, z, w: name the columns qx,qy,qz,qw".to_owned());
-        }
-        if axes {
-            let axes = if along_body { "common" } else { "body" };
-            cures.push(format!(
-                "the angular velocity is along the other axes: write `# angular_velocity = {axes}`"
-            ));
-        }
-        let degrees = |radians: f64| radians * 180.0 / std::f64::consts::PI;
         checked.faults.push(format!(
             "data of body `{body}`: the angular velocity, integrated over an interval, misses the orientation by {:.3}° (median); \
              read in another way it misses by {:.3}°; {}",
             degrees(misses[0]),
             degrees(misses[best]),
-            cures.join("; "),
+            readings[best].cures(along_body).join("; "),
+        ));
+    } else if misses[0] > MISSES * turned {
+        checked.notes.push(format!(
+            "data of body `{body}`: the angular velocity, integrated over an interval, misses the orientation by {:.3}° (median), of \
+             {:.3}° that the body turns, and no other order or axes fit; look at the times of both sensors and at their axes",
+            degrees(misses[0]),
+            degrees(turned),
         ));
     }
 }
 
+/// Angle by which the body turns in an interval, rad.
+fn turned((a, b, _): &Interval<'_>) -> Option<f64> {
+    Some(rotation_vector(&(b.orientation? * a.orientation?.inverse())).norm())
+}
+
 /// Angle between the measured orientation at the end of an interval and the integrated one, rad.
-fn miss((a, b, dt): &Interval<'_>, along_body: bool, (order, axes): (bool, bool)) -> Option<f64> {
+fn miss((a, b, dt): &Interval<'_>, along_body: bool, reading: Reading) -> Option<f64> {
     let given = [a.orientation?, b.orientation?];
-    let [from, to] = if order { given.map(|q| reordered(&q)) } else { given };
+    let [from, to] = given.map(|q| reading.orientation(&q));
     let spin = |row: &Row, q: &Quat, q_given: &Quat| -> Option<Vec3> {
         let common = row.angular_velocity?;
         // The reader has turned numbers along the axes of the body by the orientation as given.
         let numbers = if along_body { q_given.inverse() * common } else { common };
-        Some(if along_body != axes { q * numbers } else { numbers })
+        Some(if along_body != reading.other_axes { q * numbers } else { numbers })
     };
     let spin = (spin(a, &from, &given[0])? + spin(b, &to, &given[1])?) * 0.5;
     let end = Quat::from_scaled_axis(spin * *dt) * from;

@@ -80,6 +80,8 @@ impl Reader<'_> {
         let cells: Vec<&str> = line.split(',').map(str::trim).collect();
         if self.columns.is_empty() {
             self.heading(number, &cells);
+        } else if self.columns == [usize::MAX] {
+            // The heading is at fault, so that its lines cannot be judged.
         } else if cells.len() != self.columns.len() {
             let cause = format!("the line has {} cells for {} columns", cells.len(), self.columns.len());
             self.fault(number, cause, "leave a cell empty for what was not measured");
@@ -133,6 +135,13 @@ impl Reader<'_> {
 
     fn heading(&mut self, number: usize, cells: &[&str]) {
         let mut columns = Vec::new();
+        if let [cell] = cells
+            && let Some(separator) = cell.chars().find(|sign| [';', '\t', ' '].contains(sign))
+        {
+            self.columns = vec![usize::MAX];
+            let cause = format!("its columns are separated by {separator:?}");
+            return self.fault(number, cause, "separate them by commas, and write decimals with a point");
+        }
         for cell in cells {
             match COLUMNS.iter().position(|known| known == cell) {
                 Some(place) if columns.contains(&place) => {
@@ -161,16 +170,12 @@ impl Reader<'_> {
             self.fault(number, "there is no column `body`, and the scene has several free bodies", cure);
         }
         self.columns = columns;
-        // One fault of the heading is enough: its lines cannot be judged.
         if !self.faults.is_empty() {
             self.columns = vec![usize::MAX];
         }
     }
 
     fn measurement(&mut self, number: usize, cells: &[&str]) {
-        if self.columns == [usize::MAX] {
-            return;
-        }
         let cell = |name: &str| {
             let place = self.columns.iter().position(|place| COLUMNS[*place] == name)?;
             Some(cells[place]).filter(|text| !text.is_empty())

@@ -22,6 +22,7 @@ fn faults_of_the_text_are_told_with_their_lines() {
         ("x,y,z\n1,2,3\n", "no column `time`"),
         ("time,x,y,z,height\n", "no column `height`; name columns among: record, time"),
         ("time,time\n", "`time` is given twice"),
+        ("time;x;y;z\n0;1;2;3\n", "toss.csv:1: its columns are separated by ';'"),
         ("time,x,y,z\n0,1,2\n", "toss.csv:2: the line has 3 cells for 4 columns"),
         ("time,x,y,z\n0,1,2,nan\n", "toss.csv:2: `z` is `nan`"),
         ("time,x,y,z\n0,1,,3\n", "`y` is ``"),
@@ -113,6 +114,10 @@ fn order_of_quaternions_and_axes_of_angular_velocities_are_told() {
     assert!(wrong_order.contains(order) && !wrong_order.contains(axes), "{wrong_order}");
     let wrong_axes = faults(&each(&data, along_body));
     assert!(wrong_axes.contains(axes) && !wrong_axes.contains(order), "{wrong_axes}");
+    let inverse = |row: &mut pong_fit::Row| row.orientation = row.orientation.map(|q| q.inverse());
+    let turned_back = faults(&each(&data, inverse));
+    assert!(turned_back.contains("change the sign of qx, qy and qz"), "{turned_back}");
+    assert!(!turned_back.contains(order) && !turned_back.contains(axes), "{turned_back}");
     let both = faults(&each(&each(&data, along_body), reorder));
     assert!(both.contains(axes) && both.contains(order), "{both}");
     let mut said_body = each(&data, |row| {
@@ -123,8 +128,46 @@ fn order_of_quaternions_and_axes_of_angular_velocities_are_told() {
 }
 
 #[test]
+fn an_angular_velocity_that_no_reading_explains_is_noted() {
+    let (_, data) = tossed("mounted_askew");
+    let askew =
+        each(&data, |row| row.angular_velocity = row.angular_velocity.map(|w| Vec3::new(w.y, w.z, w.x)));
+    let notes = check(&askew, &GRAVITY).notes.join("\n");
+    assert!(notes.contains("no other order or axes fit"), "{notes}");
+    assert!(!check(&data, &GRAVITY).notes.join("\n").contains("no other order"));
+}
+
+#[test]
+fn data_that_the_scene_cannot_have_made_are_noted() {
+    let (scene, data) = tossed("far_off");
+    // Positions and velocities in mm agree with each other.
+    let millimetres = each(&data, |row| {
+        row.position = row.position.map(|p| p * 1e3);
+        row.velocity = row.velocity.map(|v| v * 1e3);
+    });
+    assert!(faults(&millimetres).contains("positions in mm"), "records that begin with a fall");
+    let late = Settings {
+        free: vec![free("surface.cube.acrylic.friction.mu", None)],
+        horizon: Some(0.05),
+        tries: 1,
+        profiles: false,
+        starts: Starts::Measured,
+        ..Settings::default()
+    };
+    let lifted = each(&data, |row| row.position = row.position.map(|p| p - Vec3::new(0.0, 0.0, 0.05)));
+    let fit = fit(&scene, &lifted, &late, &mut |_| ControlFlow::Continue(())).unwrap();
+    assert!(fit.notes.join("\n").contains("standard deviations of the sensors"), "{:?}", fit.notes);
+}
+
+#[test]
 fn gaps_are_noted() {
     let (_, mut data) = tossed("gaps");
+    let mut emptied = data.clone();
+    for row in emptied.records[3].rows.iter_mut().filter(|row| (8..12).contains(&row.time)) {
+        (row.position, row.orientation, row.velocity, row.angular_velocity) = (None, None, None, None);
+    }
+    let notes = check(&emptied, &GRAVITY).notes.join("\n");
+    assert!(notes.contains("record `3`: a gap of 0.0338 s"), "empty cells: {notes}");
     data.records[2].rows.retain(|row| !(8..12).contains(&row.time));
     for row in &mut data.records[2].rows {
         row.time -= if row.time >= 12 { 4 } else { 0 };

@@ -194,39 +194,114 @@ fn law_and_inertia_of_a_tossed_cube_are_found_and_threads_change_no_bit() {
     }
 }
 
-/// Share of synthetic logs in whose 95 % intervals the true values lie.
-#[test]
-#[ignore = "takes many minutes; run it once after a change of the intervals"]
-fn intervals_cover_the_truth_in_95_of_100_logs() {
-    let logs: u64 = std::env::var("PONG_FIT_LOGS").ok().and_then(|count| count.parse().ok()).unwrap_or(1000);
-    let scene = common::ramped("coverage");
+/// Counts of synthetic logs in whose 95 % intervals the true values of damping and friction lie.
+#[derive(Debug, Default)]
+struct Covered {
+    profile: [u64; 2],
+    curvature: [u64; 2],
+    bootstrap: [u64; 2],
+}
+
+/// Number of logs for coverages.
+fn logs() -> u64 {
+    std::env::var("PONG_FIT_LOGS").ok().and_then(|count| count.parse().ok()).unwrap_or(1000)
+}
+
+/// Synthetic logs of a ball.
+struct Logs {
+    name: &'static str,
+    /// Number of records of a log.
+    records: u64,
+    /// Relative standard deviation of damping and friction from record to record.
+    scatter: f64,
+    /// Known starts, or starts that are measured as all else and fitted.
+    starts: Starts,
+    profiles: bool,
+}
+
+/// Fits the logs, and counts those whose intervals have the true values.
+fn covered(logs_of: &Logs) -> Covered {
+    let scene = common::ramped(logs_of.name);
     let names = ["surface.ball.rubber.normal.damping", "surface.ball.rubber.friction.mu"];
     let truth = [25.0, 0.3];
     let names: Vec<String> = names.iter().map(ToString::to_string).collect();
     let mut batch = Batch::new(&scene, &names, 2).unwrap();
-    let mut covered = [[0_u64; 2]; 2];
-    for log in 0..logs {
+    let mut covered = Covered::default();
+    for log in 0..logs() {
         let start = |number: u64| {
             let mut random = Random::new(log, 9, number);
             let pose = Pose { position: Vec3::new(0.0, 0.0, 0.105), ..Pose::identity() };
             let linear = Vec3::new(random.between(1.0, 2.0), 0.0, random.between(-1.5, -0.5));
             (pose, Twist { linear, angular: Vec3::new(0.0, random.between(-10.0, 10.0), 0.0) })
         };
-        let starts: Vec<_> = (0..4).map(start).collect();
-        let data = records(&mut batch, &truth, &starts, &synthetic::times(10, 4e-3), log);
+        let mut data = Data { noise: noise(), ..Data::default() };
+        for number in 0..logs_of.records {
+            let mut random = Random::new(log, 10, number);
+            let values = truth.map(|truth| truth * (1.0 + logs_of.scatter * synthetic::normal(&mut random)));
+            let (start, seed) = (start(number), 1000 * log + number);
+            let mut record =
+                records(&mut batch, &values, &[start], &synthetic::times(10, 4e-3), seed).records.remove(0);
+            record.name = format!("{number}");
+            if logs_of.starts == Starts::Measured {
+                let (pose, twist) = start;
+                let row = &mut record.rows[0];
+                (row.position, row.orientation) = (Some(pose.position), Some(pose.orientation));
+                (row.velocity, row.angular_velocity) = (Some(twist.linear), Some(twist.angular));
+            }
+            data.records.push(record);
+        }
         let free = vec![free(&names[0], 2.0, 200.0), free(&names[1], 0.05, 1.0)];
-        let settings = Settings { free, tries: 1, test: 0.0, threads: 2, ..Settings::default() };
+        let (starts, profiles) = (logs_of.starts, logs_of.profiles);
+        let settings =
+            Settings { free, tries: 1, test: 0.0, threads: 2, starts, profiles, ..Settings::default() };
         let fit = run(&scene, &data, &settings);
         for (place, truth) in truth.iter().enumerate() {
             let holds = |(low, high): (f64, f64)| low <= *truth && *truth <= high;
-            covered[0][place] += u64::from(fit.parameters[place].profile.is_some_and(holds));
-            covered[1][place] += u64::from(holds(fit.parameters[place].linear));
+            let one = &fit.parameters[place];
+            covered.profile[place] += u64::from(one.profile.is_some_and(holds));
+            covered.curvature[place] += u64::from(holds(one.linear));
+            covered.bootstrap[place] += u64::from(one.bootstrap.is_some_and(holds));
         }
         if log % 50 == 49 {
-            eprintln!("{} logs: profile {:?}, curvature {:?}", log + 1, covered[0], covered[1]);
+            eprintln!("{} logs: {covered:?}", log + 1);
         }
     }
-    for count in covered[0] {
-        assert!((0.93..=0.97).contains(&(count as f64 / logs as f64)), "profile: {covered:?} of {logs}");
-    }
+    covered
+}
+
+/// True if a count of logs is 93 to 97 % of all.
+fn honest(count: u64) -> bool {
+    (0.93..=0.97).contains(&(count as f64 / logs() as f64))
+}
+
+#[test]
+#[ignore = "takes many minutes; run it once after a change of the intervals"]
+fn intervals_cover_the_truth_in_95_of_100_logs() {
+    let logs = Logs { name: "coverage", records: 4, scatter: 0.0, starts: Starts::Fitted, profiles: true };
+    let found = covered(&logs);
+    assert!(found.profile.into_iter().all(honest), "{found:?}");
+}
+
+#[test]
+#[ignore = "takes minutes; run it once after a change of the intervals"]
+fn bootstrap_intervals_cover_the_truth_in_95_of_100_logs() {
+    let logs =
+        Logs { name: "coverage_noise", records: 12, scatter: 0.0, starts: Starts::Measured, profiles: false };
+    let found = covered(&logs);
+    assert!(found.bootstrap.into_iter().all(honest), "{found:?}");
+}
+
+/// The true values are those about which the values of the records scatter.
+#[test]
+#[ignore = "takes minutes; run it once after a change of the intervals"]
+fn bootstrap_intervals_cover_where_records_differ() {
+    let logs = Logs {
+        name: "coverage_scatter",
+        records: 12,
+        scatter: 0.1,
+        starts: Starts::Measured,
+        profiles: false,
+    };
+    let found = covered(&logs);
+    assert!(found.bootstrap.into_iter().all(honest), "{found:?}");
 }

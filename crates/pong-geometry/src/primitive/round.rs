@@ -82,6 +82,14 @@ impl Frustum {
         Self { ends, radii, axis: between / length, length, wall }
     }
 
+    /// Returns the outward unit normal of the lateral surface in the half plane through the axis and a point, which
+    /// must not lie on the axis.
+    pub fn wall_normal(&self, place: &Vec3) -> Vec3 {
+        let arm = place - self.ends[0];
+        let away = (arm - self.axis * self.axis.dot(&arm)).normalize();
+        self.axis * self.wall[0] + away * self.wall[1]
+    }
+
     /// Returns the disc at one end: a frustum of length zero.
     pub fn disc(&self, end: usize) -> Self {
         Self {

@@ -7,6 +7,7 @@
 
 mod arithmetic;
 mod boxes;
+mod derivatives;
 mod first;
 mod functions;
 mod lanes;
@@ -20,6 +21,7 @@ mod x86_boxes;
 
 pub use arithmetic::{Kernel, Simd};
 pub use boxes::{BoxSimd, EightBoxes};
+pub use derivatives::{Derivatives, Dual};
 pub use first::{Finder, First, FirstOf, Found};
 pub use lanes::{LANES, LaneBits};
 pub use numbers::{Numbers, Vectors};

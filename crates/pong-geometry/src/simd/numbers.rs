@@ -31,6 +31,12 @@ impl<S: Simd> Numbers<S> {
         self.simd.store(self.eight)
     }
 
+    /// Numbers from the type that [`Simd`] operates on.
+    #[inline(always)]
+    pub fn of(simd: S, eight: S::Eight) -> Self {
+        Self { simd, eight }
+    }
+
     /// Returns the numbers as the type that [`Simd`] operates on.
     #[inline(always)]
     pub fn eight(self) -> S::Eight {

@@ -13,7 +13,7 @@ use pong_geometry::interference::Interference;
 use pong_geometry::interference::ellipsoid_polyhedron::{ellipsoid_piece, ellipsoid_polyhedron};
 use pong_geometry::primitive::{Ellipsoid, Polyhedron};
 use pong_geometry::{Mat3, Vec3};
-use pong_testkit::samples;
+use pong_testkit::{long_samples, samples};
 
 fn overlap(e: &Ellipsoid, p: &Polyhedron, n: &Vec3) -> f64 {
     let support =
@@ -124,11 +124,12 @@ struct Tally {
     normal: f64,
 }
 
+/// Compares random ellipsoids with the reference: `cases` of them in a run of the night, a quarter in a full one.
 fn compare(p: &Polyhedron, semi_axes: Vec3, reach: f64, cases: usize, seed: u64) -> Tally {
     let reference = Reference::new(1500);
     let mut random = Random(seed);
     let mut tally = Tally::default();
-    for case in 0..samples(cases) {
+    for case in 0..long_samples(cases / 4, cases) {
         let e = random_ellipsoid(&mut random, semi_axes, reach);
         let (least, n) = reference.least(&e, p, &mut random);
         let Some(contact) = ellipsoid_polyhedron(&e, p) else {
@@ -212,7 +213,7 @@ fn a_face_of_many_corners_is_searched_to_the_end() {
 #[test]
 fn minimum_of_twelve_faces() {
     let tally = compare(&stretched_hull(8, HULL), ELLIPSOID, 0.6, 5000, 31);
-    assert!(tally.edges > samples(100) && tally.vertices > samples(20));
+    assert!(tally.edges >= samples(25) && tally.vertices >= samples(5));
 }
 
 #[test]

@@ -11,7 +11,7 @@ use pong_geometry::interference::two_ended_round::{
 };
 use pong_geometry::primitive::{Capsule, Frustum, LineSegment, Sphere};
 use pong_geometry::{Transform, Vec3};
-use pong_testkit::{Random, samples};
+use pong_testkit::{Random, long_samples, samples};
 
 /// Random solid, about 1 m in size, of any slenderness, near the origin.
 fn random_solid(random: &mut Random) -> Solid {
@@ -186,7 +186,7 @@ fn a_rod_on_the_axis_of_a_solid_leaves_it_by_the_shortest_way() {
 fn depths_are_the_least_translation_that_separates() {
     let mut random = Random::new(1, 0, 0);
     let mut touching = 0;
-    for case in 0..samples(100) {
+    for case in 0..long_samples(40, 100) {
         let solid = random_solid(&mut random);
         let rod = random_rod(&mut random, &solid);
         let searched = depth_by_search(&rod, &solid);
@@ -203,14 +203,14 @@ fn depths_are_the_least_translation_that_separates() {
             assert!((out - found).abs() < 1e-11, "{told}: the normal separates by {out}");
         }
     }
-    assert!(touching > samples(30));
+    assert!(touching > long_samples(12, 30));
 }
 
 /// Rods whose axes pass through a cylinder or a cone, many poses for each pair: no searched direction gives a
 /// shorter translation.
 #[test]
 fn no_way_out_of_cylinders_and_cones_is_shorter_than_the_depth() {
-    let poses = samples(1000);
+    let poses = long_samples(200, 1000);
     let mut random = Random::new(15, 0, 0);
     let mut counts = [[0; 2]; 2];
     while counts.iter().flatten().any(|&count| count < poses) {

@@ -3,3 +3,4 @@
 mod invariances;
 mod poses;
 mod solids;
+mod tangents;

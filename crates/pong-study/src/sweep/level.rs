@@ -151,6 +151,8 @@ fn integrator_name(integrator: Integrator) -> String {
         Integrator::ZeroOrderHold { substeps, delay_frames } => {
             format!("hold/{substeps} late {delay_frames}")
         }
+        Integrator::LongFrame { delay_frames: 0, .. } => "long".to_owned(),
+        Integrator::LongFrame { delay_frames, .. } => format!("long late {delay_frames}"),
     }
 }
 

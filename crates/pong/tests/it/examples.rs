@@ -1,21 +1,37 @@
 //! The examples, run as their heads say, against known answers.
 
 use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::process::{Command, Output};
+use std::sync::OnceLock;
 
-fn folder() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("examples")
+/// Names of all examples.
+const EXAMPLES: [&str; 3] = ["minimal", "runge_kutta_host", "own_law"];
+
+/// Output of a command that succeeds in the folder of the examples and their models.
+fn succeed(command: &mut Command) -> Output {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples");
+    let run = command.current_dir(folder).output().unwrap();
+    assert!(run.status.success(), "{command:?}: {}", String::from_utf8_lossy(&run.stderr));
+    run
 }
 
-/// Output of an example, run in the folder of its models.
+/// Folder of the programs of all examples, which are built first.
+///
+/// With `--workspace` every dependency has the features that it has for `cargo test --workspace`, after which nothing is left
+/// to build. With `--package pong` the engine would be built a second time.
+fn programs() -> &'static Path {
+    static FOLDER: OnceLock<PathBuf> = OnceLock::new();
+    FOLDER.get_or_init(|| {
+        let mut build = Command::new(env!("CARGO"));
+        build.args(["build", "--quiet", "--workspace"]);
+        succeed(EXAMPLES.iter().fold(&mut build, |build, name| build.args(["--example", name])));
+        Path::new(env!("CARGO_TARGET_TMPDIR")).parent().unwrap().join("debug/examples")
+    })
+}
+
+/// Output of an example.
 fn output(example: &str) -> String {
-    let run = Command::new(env!("CARGO"))
-        .args(["run", "--quiet", "--package", "pong", "--example", example])
-        .current_dir(folder())
-        .output()
-        .unwrap();
-    assert!(run.status.success(), "{}", String::from_utf8_lossy(&run.stderr));
-    String::from_utf8(run.stdout).unwrap()
+    String::from_utf8(succeed(&mut Command::new(programs().join(example))).stdout).unwrap()
 }
 
 /// k·δ = 20 kN/m · 1 mm.

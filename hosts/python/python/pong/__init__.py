@@ -21,6 +21,7 @@ from typing import TYPE_CHECKING, Any
 from . import model, types
 from ._fit import fit, plot_fit
 from ._log import Log
+from ._momentum import inertia_from_momentum
 from ._pong import (
     CONTACT_DTYPE,
     BadValueError,
@@ -82,6 +83,7 @@ __all__ = [
     "__version__",
     "advise_contact",
     "fit",
+    "inertia_from_momentum",
     "load_model",
     "model",
     "plot_fit",

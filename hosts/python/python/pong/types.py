@@ -8,9 +8,11 @@
 | `Replay`, `Trade` with `Level`, `Tuned` | `replay`, `trade`, `tune` |
 | `BatchRuns` | `Batch.run` |
 | `Fit` with `FitParameter` | `fit` |
+| `MomentumInertia` | `inertia_from_momentum` |
 | `Case` with `Row` | `verify` |
 """
 
+from ._momentum import MomentumInertia
 from ._pong import (
     AddedModel,
     BatchRuns,
@@ -43,6 +45,7 @@ __all__ = [
     "FrameReport",
     "Interface",
     "Level",
+    "MomentumInertia",
     "Object",
     "Pair",
     "PairPeaks",

@@ -16,27 +16,22 @@ use pong_geometry::pose::carry_by_smallest_rotation;
 use pong_geometry::primitive::PrimitiveKind;
 use pong_model::MovableGroup;
 
-/// Couple of one contact.
-pub(super) struct Couple<'a> {
-    found: &'a ContactCandidate,
-    /// Contact point c in B's frame, m.
-    point_b: Vec3,
-    /// Lever L, m.
-    lever: f64,
-    /// Angular velocity of A relative to B in B's frame, rad/s.
-    rate_b: Vec3,
-    resisting: ResistingMoment,
-    /// Indices of the committed records of the two contacts.
-    continues: [Option<u32>; 2],
+/// Resistance of one contact, as it is evaluated.
+pub(crate) struct Resisted<'a> {
+    pub resistance: Resistance,
+    /// Contact point c, m.
+    pub point_b: Vec3,
+    /// Committed records of the two contacts, with their indices.
+    pub earlier: [Option<(usize, &'a ContactRecord)>; 2],
 }
 
-impl<'a> Couple<'a> {
-    /// Couple of a contact that carries the given share of the tangential spring; `None` without normal force,
-    /// or if its surfaces do not resist.
+impl<'a> Resisted<'a> {
+    /// Resistance of a contact that carries the given share of the tangential spring; `None` without normal force, or
+    /// if its surfaces do not resist.
     pub fn of(
-        context: &PairContext<'_>,
+        context: &PairContext<'a>,
         kind_a: PrimitiveKind,
-        found: &'a ContactCandidate,
+        found: &ContactCandidate,
         share: f64,
     ) -> Option<Self> {
         let props = context.props(found);
@@ -80,8 +75,36 @@ impl<'a> Couple<'a> {
             rate_b,
             stuck: earlier.map(|record| record.is_none_or(|(_, record)| record.sticks)),
         };
+        Some(Self { resistance, point_b: point, earlier })
+    }
+}
+
+/// Couple of one contact.
+pub(super) struct Couple<'a> {
+    found: &'a ContactCandidate,
+    /// Contact point c in B's frame, m.
+    point_b: Vec3,
+    /// Lever L, m.
+    lever: f64,
+    /// Angular velocity of A relative to B in B's frame, rad/s.
+    rate_b: Vec3,
+    resisting: ResistingMoment,
+    /// Indices of the committed records of the two contacts.
+    continues: [Option<u32>; 2],
+}
+
+impl<'a> Couple<'a> {
+    /// Couple of a contact, as [`Resisted::of`].
+    pub fn of(
+        context: &PairContext<'_>,
+        kind_a: PrimitiveKind,
+        found: &'a ContactCandidate,
+        share: f64,
+    ) -> Option<Self> {
+        let Resisted { resistance, point_b, earlier } = Resisted::of(context, kind_a, found, share)?;
+        let Resistance { lever, rate_b, .. } = resistance;
         let continues = earlier.map(|record| record.map(|(index, _)| index as u32));
-        Some(Self { found, point_b: point, lever, rate_b, resisting: resistance.evaluate(), continues })
+        Some(Self { found, point_b, lever, rate_b, resisting: resistance.evaluate(), continues })
     }
 
     /// Adds the two contacts: forces ±f at c ± e, so that 2·e × f is the moment.

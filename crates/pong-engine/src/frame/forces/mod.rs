@@ -4,7 +4,7 @@ mod bristles;
 pub(crate) mod contact;
 pub(crate) mod contact_buffer;
 pub(crate) mod contact_ref;
-mod couples;
+pub(crate) mod couples;
 pub(crate) mod found;
 
 use crate::frame::broad_phase::chunk::Chunk;
@@ -126,17 +126,17 @@ pub(crate) fn bristle_share<'f>(
     contact: &ContactCandidate,
     same_key: impl Iterator<Item = &'f ContactCandidate>,
 ) -> f64 {
-    let whole: f64 = same_key
-        .filter(|other| {
-            other.role == ContactRole::Active
-                && other.normal_b.dot(&contact.normal_b) > SHARED_BRISTLE_COSINE_MIN
-        })
-        .map(|other| other.weight)
-        .sum();
+    let whole: f64 = same_key.filter(|other| share_a_bristle(other, contact)).map(|other| other.weight).sum();
     // If no other contact counts, `whole` is the weight itself and the share is exactly h. If the contact
     // does not push, its share is not used.
     let half = contact.half_or_whole();
     if whole > contact.weight { half * contact.weight / whole } else { half }
+}
+
+/// Returns true if `other` is a pushing contact that shares the tangential spring with a contact of the same key.
+#[inline(always)]
+pub(crate) fn share_a_bristle(other: &ContactCandidate, contact: &ContactCandidate) -> bool {
+    other.role == ContactRole::Active && other.normal_b.dot(&contact.normal_b) > SHARED_BRISTLE_COSINE_MIN
 }
 
 /// Elements of A of the current chunk.

@@ -3,7 +3,8 @@
 use super::motion::{Motion, SinceCommit};
 use crate::scene::{SurfaceField, SurfaceMotion};
 use crate::state::{CommittedPoses, ContactRecord};
-use pong_geometry::{Transform, Vec3};
+use nalgebra::Matrix3x6;
+use pong_geometry::{Mat3, Transform, Vec3};
 
 /// Velocity and travel of the surface of a movable group.
 #[derive(Clone, Copy, Debug)]
@@ -106,6 +107,30 @@ impl MovingSurfaces {
         relative(&self.travels, x_ba, point_b, normal_b)
     }
 
+    /// Derivatives of [`velocity`](Self::velocity) along the contact plane, for a contact that moves.
+    pub fn velocity_slopes(&self, motion: &Motion, place: &MovingPlace<'_>) -> Matrix3x6<f64> {
+        let field = relative(&self.velocities, &motion.x_ba, place.point_b, place.normal_b);
+        tangential_slopes(&relative_slopes(&self.velocities, &motion.x_ba, place), &field, place)
+    }
+
+    /// Derivatives of [`travel`](Self::travel) along the contact plane, for a contact that moves.
+    pub fn travel_slopes(
+        &self,
+        (motion, since): (&Motion, &SinceCommit),
+        earlier: Option<(Vec3, Vec3)>,
+        place: &MovingPlace<'_>,
+    ) -> Matrix3x6<f64> {
+        let now = self.travel_at(&motion.x_ba, place.point_b, place.normal_b);
+        let slopes = relative_slopes(&self.travels, &motion.x_ba, place);
+        match earlier {
+            None => tangential_slopes(&slopes, &now, place),
+            Some((point, normal)) => {
+                let mean = (self.travel_at(&since.x_ba, &point, &normal) + now) * 0.5;
+                tangential_slopes(&(slopes * 0.5), &mean, place)
+            }
+        }
+    }
+
     /// Work of the drives of the two surfaces since the last commit, J, against the friction of a contact, by the
     /// trapezoidal rule. `before` is its record of the last commit, and `now` its point, normal and friction force.
     pub fn drive_work(
@@ -128,6 +153,40 @@ fn relative(fields: &[SurfaceField; 2], x_ba: &Transform, point_b: &Vec3, normal
     let x_ab = x_ba.inverse();
     let of_a = fields[0].at(&x_ab.point(point_b), &-x_ab.vector(normal_b));
     x_ba.vector(&of_a) - fields[1].at(point_b, normal_b)
+}
+
+/// A contact point and its normal, with their derivatives with respect to a translation and a rotation of A at B's
+/// origin (docs/theory.md, 7).
+pub(crate) struct MovingPlace<'a> {
+    pub point_b: &'a Vec3,
+    pub normal_b: &'a Vec3,
+    pub point_slopes: &'a Matrix3x6<f64>,
+    pub normal_slopes: &'a Matrix3x6<f64>,
+}
+
+/// Derivatives of [`relative`].
+fn relative_slopes(fields: &[SurfaceField; 2], x_ba: &Transform, place: &MovingPlace<'_>) -> Matrix3x6<f64> {
+    let MovingPlace { point_b, normal_b, point_slopes, normal_slopes } = *place;
+    let [linear, angular, belt] = fields[0].parts().map(|part| x_ba.vector(&part));
+    let turn = |vector: &Vec3| {
+        let mut slopes = Matrix3x6::zeros();
+        slopes.fixed_view_mut::<3, 3>(0, 3).copy_from(&-vector.cross_matrix());
+        slopes
+    };
+    let mut origin = turn(&x_ba.translation);
+    origin.fixed_view_mut::<3, 3>(0, 0).copy_from(&Mat3::identity());
+    let arm = point_b - x_ba.translation;
+    let of_a = turn(&linear) - arm.cross_matrix() * turn(&angular)
+        + angular.cross_matrix() * (point_slopes - origin)
+        + normal_b.cross_matrix() * turn(&belt)
+        - belt.cross_matrix() * normal_slopes;
+    let [_, angular, belt] = fields[1].parts();
+    of_a - angular.cross_matrix() * point_slopes - belt.cross_matrix() * normal_slopes
+}
+
+/// Derivatives of the part of a vector in the contact plane, but for those along the normal.
+fn tangential_slopes(slopes: &Matrix3x6<f64>, vector: &Vec3, place: &MovingPlace<'_>) -> Matrix3x6<f64> {
+    slopes - place.normal_slopes * place.normal_b.dot(vector)
 }
 
 /// Part of a vector in the plane with a unit normal.

@@ -3,9 +3,10 @@
 use super::FrameResults;
 use crate::contact::{Contact, ContactSide};
 use crate::energy::account::EnergyAccount;
+use crate::frame::forces::bristle_share;
 use crate::frame::forces::contact::FrameContact;
 use crate::ids::{InterfaceId, ObjectId, PairId};
-use crate::law::{NormalTangent, normal_tangent};
+use crate::law::{ContactTangent, FrictionProps, NormalTangent, normal_tangent};
 use crate::seal::{SurfaceTable, values_of};
 use pong_geometry::{Pose, Vec3};
 
@@ -34,6 +35,34 @@ impl<'a> FrameResults<'a> {
             let found = &contact.found;
             let props = values_of(scene, sealed, tables, found);
             normal_tangent(props, found.full_weight(), found.depth, contact.rate)
+        })
+    }
+
+    /// Stiffness and damping that act in the contacts that push, in key order.
+    pub fn list_contact_tangents(
+        self,
+        tables: &'a [SurfaceTable],
+    ) -> impl Iterator<Item = Option<ContactTangent>> + use<'a> {
+        let Self { scene, sealed, contacts, .. } = self;
+        contacts.pushing().map(move |contact| {
+            let found = &contact.found;
+            if !found.key.is_tested() {
+                return None;
+            }
+            let props = values_of(scene, sealed, tables, found);
+            let normal = normal_tangent(props, found.full_weight(), found.depth, contact.rate)?;
+            let same_key = contacts
+                .with_head(found.key.head())
+                .map(|reference| &contacts.found.contact(reference).found)
+                .filter(|other| other.key == found.key);
+            let (stiffness, damping) = match props.friction {
+                FrictionProps::Bristle { stiffness, damping, .. } if contact.sticks => (stiffness, damping),
+                FrictionProps::Custom { .. } => return None,
+                _ => (0.0, 0.0),
+            };
+            let share = bristle_share(found, same_key);
+            let tangential = NormalTangent { stiffness: share * stiffness, damping: share * damping };
+            Some(ContactTangent { normal, tangential })
         })
     }
 

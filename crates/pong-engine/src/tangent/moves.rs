@@ -1,0 +1,210 @@
+//! Motion of a contact with the relative pose of its two bodies: depth, normal and deepest point.
+//!
+//! A moves relative to B by a small translation u of the material point of A at B's origin, and by a small rotation
+//! φ; all in B's frame, in which B is at rest. A's deepest point a and B's point b = a + δ·n follow the
+//! normal as the shapes of the two surfaces tell ([`Shape`]):
+//!
+//! ```text
+//! da = u(a) + A's slide − H_A·(dn − φ × n)      db = B's slide + H_B·dn      db = da + dδ·n + δ·dn
+//! ```
+//!
+//! Since n·da, n·db and n·dn hold no slide, dδ = −n·u(a). The tangential part gives dn and the slides.
+
+use super::shape::Shape;
+use nalgebra::{Matrix2, Matrix3x6, RowVector6, Vector2};
+use pong_geometry::{Mat3, Vec3};
+
+/// Derivatives of a contact with respect to (u, φ): 3 translations, m, and 3 rotations, rad.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Moves {
+    /// Depth.
+    pub depth: RowVector6<f64>,
+    /// Normal.
+    pub normal: Matrix3x6<f64>,
+    /// Deepest point of A.
+    pub deepest: Matrix3x6<f64>,
+}
+
+/// Contact as its tester gives it, in B's frame.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Touch {
+    pub normal_b: Vec3,
+    pub depth: f64,
+    /// Deepest point of A, m.
+    pub deepest_b: Vec3,
+}
+
+/// Displacement u + φ × place of the material point of A at `place`.
+pub(super) fn displacement(place: &Vec3) -> Matrix3x6<f64> {
+    let mut moved = Matrix3x6::zeros();
+    moved.fixed_view_mut::<3, 3>(0, 0).copy_from(&Mat3::identity());
+    moved.fixed_view_mut::<3, 3>(0, 3).copy_from(&-place.cross_matrix());
+    moved
+}
+
+/// Turn φ × v of a vector that is fixed to A.
+pub(super) fn turn(vector: &Vec3) -> Matrix3x6<f64> {
+    let mut turned = Matrix3x6::zeros();
+    turned.fixed_view_mut::<3, 3>(0, 3).copy_from(&-vector.cross_matrix());
+    turned
+}
+
+impl Touch {
+    /// Moves of the contact; `None` where the shapes determine none: A is flat, or both are straight and parallel.
+    pub fn moves(&self, a: &Shape, b: &Shape) -> Option<Moves> {
+        let moved = displacement(&self.deepest_b);
+        let depth = -(self.normal_b.transpose() * moved);
+        let turned = turn(&self.normal_b);
+        let (normal, deepest) = match (a, b) {
+            (Shape::Flat, _) => return None,
+            (Shape::Round(h), Shape::Flat) => (Matrix3x6::zeros(), moved + h * turned),
+            (Shape::Straight { .. }, Shape::Flat) => return None,
+            (Shape::Round(ha), Shape::Round(hb)) => {
+                let normal =
+                    self.in_plane(&(ha + hb - Mat3::identity() * self.depth))? * (moved + ha * turned);
+                (normal, moved - ha * (normal - turned))
+            }
+            (Shape::Round(h), Shape::Straight { along, radius }) => {
+                let across = self.normal_b.cross(along);
+                let gap = across.dot(&(h * across)) + radius - self.depth;
+                let normal = across * (across.transpose() * (moved + h * turned)) * inverse(gap)?;
+                (normal, moved - h * (normal - turned))
+            }
+            (Shape::Straight { along, radius }, Shape::Round(h)) => {
+                let across = self.normal_b.cross(along);
+                let rest = h - Mat3::identity() * self.depth;
+                let gap = across.dot(&(rest * across)) + radius;
+                let free = across * (across.transpose() * (moved - rest * turned)) * inverse(gap)?;
+                let normal = turned + free;
+                (normal, self.moved_with_b(&(h * normal), &depth, &normal))
+            }
+            (Shape::Straight { along, radius }, Shape::Straight { along: other, radius: of_b }) => {
+                let normal = self.across_both(along, other, &turned)?;
+                let across = [self.normal_b.cross(along), self.normal_b.cross(other)];
+                let of_a = across[0] * (across[0].transpose() * (normal - turned)) * *radius;
+                let side_b = across[1] * (across[1].transpose() * normal) * *of_b;
+                // What the two slides, along and other, have to bridge.
+                let rest = side_b - (moved - of_a) - normal * self.depth;
+                let slide = self.slide(along, other, &rest)?;
+                (normal, moved - of_a + along * slide)
+            }
+        };
+        Some(Moves { depth, normal, deepest })
+    }
+
+    /// Motion of A's point from that of B's.
+    fn moved_with_b(
+        &self,
+        of_b: &Matrix3x6<f64>,
+        depth: &RowVector6<f64>,
+        normal: &Matrix3x6<f64>,
+    ) -> Matrix3x6<f64> {
+        of_b - self.normal_b * depth - normal * self.depth
+    }
+
+    /// Inverse of a matrix in the contact plane, zero along the normal.
+    fn in_plane(&self, matrix: &Mat3) -> Option<Mat3> {
+        let [e, f] = plane_axes(&self.normal_b);
+        let at = |x: &Vec3, y: &Vec3| x.dot(&(matrix * y));
+        let inverse = Matrix2::new(at(&e, &e), at(&e, &f), at(&f, &e), at(&f, &f)).try_inverse()?;
+        let of = |x: &Vec3, y: &Vec3, factor: f64| x * y.transpose() * factor;
+        Some(
+            of(&e, &e, inverse[(0, 0)])
+                + of(&e, &f, inverse[(0, 1)])
+                + of(&f, &e, inverse[(1, 0)])
+                + of(&f, &f, inverse[(1, 1)]),
+        )
+    }
+
+    /// Turn of the normal that stays perpendicular to an edge of A, which turns with A, and to an edge of B.
+    fn across_both(&self, along: &Vec3, other: &Vec3, turned: &Matrix3x6<f64>) -> Option<Matrix3x6<f64>> {
+        let [e, f] = plane_axes(&self.normal_b);
+        let rows = Matrix2::new(along.dot(&e), along.dot(&f), other.dot(&e), other.dot(&f));
+        let inverse = well_inverted(&rows)?;
+        let needed = along.transpose() * turned;
+        Some((e * inverse[(0, 0)] + f * inverse[(1, 0)]) * needed)
+    }
+
+    /// Slide along A's edge, so that the rest is a slide along B's edge.
+    fn slide(&self, along: &Vec3, other: &Vec3, rest: &Matrix3x6<f64>) -> Option<RowVector6<f64>> {
+        let across = self.normal_b.cross(other);
+        Some(across.transpose() * rest * inverse(across.dot(along))?)
+    }
+}
+
+/// Two unit vectors perpendicular to a normal and to each other: the three are right-handed.
+pub(super) fn plane_axes(normal: &Vec3) -> [Vec3; 2] {
+    let e = pong_geometry::any_perpendicular(normal);
+    [e, normal.cross(&e)]
+}
+
+fn inverse(number: f64) -> Option<f64> {
+    (number.abs() > 1e-12).then(|| 1.0 / number)
+}
+
+fn well_inverted(matrix: &Matrix2<f64>) -> Option<Matrix2<f64>> {
+    let [first, second] = [0, 1].map(|row| Vector2::new(matrix[(row, 0)], matrix[(row, 1)]).norm());
+    (matrix.determinant().abs() > 1e-9 * first * second).then(|| matrix.try_inverse()).flatten()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::tangent::shape::AtContact;
+    use pong_geometry::extension::PrimitiveRef;
+    use pong_geometry::interference::Interference;
+    use pong_geometry::interference::two_ended_round::capsule_capsule;
+    use pong_geometry::primitive::Capsule;
+    use pong_geometry::{Quat, Transform};
+
+    /// Moves of each contact of two capsules against central differences of the tester.
+    #[test]
+    fn moves_of_two_capsules() {
+        let a =
+            Capsule { ends: [Vec3::new(-0.73, 0.35, 0.015), Vec3::new(0.73, -0.35, -0.015)], radius: 0.15 };
+        let b = Capsule { ends: [Vec3::new(-0.1, -0.4, 0.3), Vec3::new(0.1, 0.4, -0.3)], radius: 0.5 };
+        let pose = pong_geometry::Pose::new(Vec3::new(0.4, 0.009, 0.5), [0.5553, -0.01437, 0.25434, 0.79166]);
+        let x = pose.transform();
+        let found = |x: &Transform| capsule_capsule(&a.carried(x), &b).map(|c| c.map(|c| c.interference));
+        for end in 0..3 {
+            let Some(contact) = found(&x)[end] else { continue };
+            let Interference { depth, normal_b, deepest_b, feature } = contact;
+            let carried = a.carried(&x);
+            let of_a = AtContact::new(PrimitiveRef::Capsule(&carried), deepest_b, -normal_b);
+            let of_b = AtContact::new(PrimitiveRef::Capsule(&b), deepest_b + normal_b * depth, normal_b);
+            let (sa, sb) = (of_a.shape_of_a(false).unwrap(), of_b.shape_of_b(feature).unwrap());
+            let touch = Touch { normal_b, depth, deepest_b };
+            let moves = touch.moves(&sa, &sb).unwrap();
+            for k in 0..6 {
+                let h = 1e-6;
+                let at = |s: f64| {
+                    let mut t = Vec3::zeros();
+                    t[k % 3] = s;
+                    let turn = if k < 3 { Quat::identity() } else { Quat::from_scaled_axis(t) };
+                    let shift = if k < 3 { t } else { Vec3::zeros() };
+                    let rotation = turn.to_rotation_matrix().into_inner();
+                    let moved = Transform {
+                        rotation: rotation * x.rotation,
+                        translation: rotation * x.translation + shift,
+                    };
+                    found(&moved)[end].unwrap()
+                };
+                let (up, down) = (at(h), at(-h));
+                let seen =
+                    (up.depth - down.depth, up.normal_b - down.normal_b, up.deepest_b - down.deepest_b);
+                assert!(
+                    (moves.depth[k] - seen.0 / (2.0 * h)).abs() < 1e-8,
+                    "depth of end {end}, variable {k}"
+                );
+                assert!(
+                    (moves.normal.column(k) - seen.1 / (2.0 * h)).norm() < 1e-7,
+                    "normal of end {end}, variable {k}"
+                );
+                assert!(
+                    (moves.deepest.column(k) - seen.2 / (2.0 * h)).norm() < 1e-7,
+                    "point of end {end}, variable {k}"
+                );
+            }
+        }
+    }
+}

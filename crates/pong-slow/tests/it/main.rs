@@ -1,0 +1,9 @@
+//! Slow hosts against closed forms, energies and runs in short steps.
+
+mod block;
+mod bounce;
+mod calls;
+mod crowded;
+mod hinge;
+mod late;
+mod rig;
