@@ -4,7 +4,8 @@ use super::facets::Facet;
 use crate::solid_tree::SolidTree;
 use pong_geometry::Vec3;
 
-/// Distance, relative to the diameter, up to which triangles touch rather than cross, and touch regions.
+/// Distance, relative to the diameter, up to which triangles touch rather than cross. Regions are touched from the same
+/// distance, relative to their greatest height.
 pub(super) const TOUCH: f64 = 1e-9;
 
 /// Two triangles that cross, and a place where they do.

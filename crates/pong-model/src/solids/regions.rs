@@ -51,8 +51,6 @@ struct Mesh<'m> {
     is_reentrant: Vec<bool>,
     is_thin: Vec<bool>,
     tolerance: f64,
-    /// Distance up to which a triangle touches a region, m.
-    touch: f64,
 }
 
 /// Regions of the triangles of a mesh that push, each with its triangle, and the walls of all regions. `tree` has the
@@ -63,13 +61,13 @@ pub(super) fn regions(
     tree: &SolidTree,
     diameter: f64,
 ) -> (Vec<(u32, SolidFacet)>, Vec<HalfSpace>) {
-    let mesh = Mesh::new(closed, facets, diameter);
+    let mesh = Mesh::new(closed, facets, PLANE_TOLERANCE * diameter);
     let (mut found, mut walls, mut near) = (Vec::new(), Vec::new(), Vec::new());
     let mut work = Work::default();
     for triangle in 0..closed.outer as u32 {
         let Some(mut region) = mesh.region(triangle, &mut work) else { continue };
         near.clear();
-        tree.meeting(&SolidBox::around(region.surface.vertices()).wider(mesh.touch), &mut near);
+        tree.meeting(&SolidBox::around(region.surface.vertices()).wider(region.touch()), &mut near);
         mesh.lower(&mut region, &near, &mut work);
         let first = walls.len() as u32;
         let face = mesh.planes[triangle as usize];
@@ -84,8 +82,7 @@ pub(super) fn regions(
 }
 
 impl<'m> Mesh<'m> {
-    fn new(closed: &'m Triangles, facets: &[Facet], diameter: f64) -> Self {
-        let [tolerance, touch] = [PLANE_TOLERANCE, TOUCH].map(|relative| relative * diameter);
+    fn new(closed: &'m Triangles, facets: &[Facet], tolerance: f64) -> Self {
         let triangles = &closed.triangles;
         let beyond = beyond(triangles);
         let is_thin: Vec<bool> = facets.iter().map(|facet| facet.is_thin(tolerance)).collect();
@@ -102,8 +99,7 @@ impl<'m> Mesh<'m> {
             }
         }
         let is_reentrant = Vec::new();
-        let mut mesh =
-            Self { closed, planes, beyond, starts, around, is_reentrant, is_thin, tolerance, touch };
+        let mut mesh = Self { closed, planes, beyond, starts, around, is_reentrant, is_thin, tolerance };
         mesh.is_reentrant = mesh.reentrant_vertices();
         mesh
     }
@@ -229,7 +225,7 @@ impl<'m> Mesh<'m> {
     fn lower(&self, region: &mut Region, near: &[u32], work: &mut Work) {
         let own = self.closed.triangles[region.triangle as usize];
         let face = &self.planes[region.triangle as usize];
-        let mut height = region.height;
+        let (mut height, touch) = (region.height, region.touch());
         for &other in near {
             let corners = self.closed.triangles[other as usize];
             if corners.iter().any(|vertex| own.contains(vertex)) {
@@ -239,22 +235,22 @@ impl<'m> Mesh<'m> {
             let planes = || std::iter::once(face).chain(&region.walls);
             let corners = self.corners(other);
             // Most of the triangles near a region are outside of one of its planes.
-            if planes().any(|plane| corners.iter().all(|corner| plane.depth(corner) < -self.touch)) {
+            if planes().any(|plane| corners.iter().all(|corner| plane.depth(corner) < -touch)) {
                 continue;
             }
             let [polygon, next] = &mut work.polygons;
             polygon.clear();
             polygon.extend(corners);
             for plane in planes() {
-                clip(polygon, &HalfSpace { offset: plane.offset + self.touch, ..*plane }, next);
+                clip(polygon, &HalfSpace { offset: plane.offset + touch, ..*plane }, next);
                 std::mem::swap(polygon, next);
             }
-            let depths = polygon.iter().map(|place| face.depth(place)).filter(|depth| *depth > self.touch);
+            let depths = polygon.iter().map(|place| face.depth(place)).filter(|depth| *depth > touch);
             height = depths.map(|depth| share * depth).fold(height, f64::min);
         }
         let floor = HalfSpace { normal_b: -face.normal_b, offset: height - face.offset };
         let deepest = region.surface.vertices().iter().map(|place| face.depth(place)).fold(0.0, f64::max);
-        if height < deepest - self.touch || deepest >= 0.999 * region.height {
+        if height < deepest - touch || deepest >= 0.999 * region.height {
             region.cut(floor, work);
             region.height = height;
         } else {
@@ -264,6 +260,12 @@ impl<'m> Mesh<'m> {
 }
 
 impl Region {
+    /// Distance up to which a triangle touches the region before it is cut off, m. It follows from the triangle of the
+    /// region alone, because heights are known to this distance, and must not depend on axes.
+    fn touch(&self) -> f64 {
+        TOUCH * self.height
+    }
+
     fn cut(&mut self, wall: HalfSpace, work: &mut Work) {
         work.cutter.cut_by(&mut self.surface, &wall);
         self.walls.push(wall);

@@ -333,6 +333,26 @@ fn heights_of_regions_do_not_depend_on_the_axes() {
     }
 }
 
+/// Floors from triangles that are not parallel to that of the region are the same in other axes, too.
+#[test]
+fn heights_of_an_l_do_not_depend_on_the_axes() {
+    let places = pong_testkit::meshes::l_shape();
+    let vertices: Vec<Vec3> = places.iter().flatten().map(|place| Vec3::from(*place)).collect();
+    let triangles: Vec<[u32; 3]> = (0..places.len() as u32).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect();
+    let heights = |turn: &Quat| -> Vec<f64> {
+        let turned: Vec<Vec3> = vertices.iter().map(|vertex| turn * vertex).collect();
+        only(&mesh_of(&turned, &triangles, "")).facets.iter().map(|facet| facet.height).collect()
+    };
+    let expected = heights(&Quat::identity());
+    let mut random = Random::new(46, 2, 0);
+    for _ in 0..samples(200) {
+        let turn = Quat::from_scaled_axis(Vec3::from_fn(|_, _| random.between(-2.0, 2.0)));
+        for (height, expected) in heights(&turn).into_iter().zip(&expected) {
+            assert!(height == *expected || (height - expected).abs() < 1e-14, "{height} {expected}");
+        }
+    }
+}
+
 /// One vertex of a torus is drawn through the tube into the hole.
 #[test]
 fn a_mesh_that_crosses_itself_is_refused() {
