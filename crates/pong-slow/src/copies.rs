@@ -259,13 +259,25 @@ fn rate_square(world: &World, bodies: &[Body], copies: &[Copy]) -> f64 {
     fastest.max(decay * decay)
 }
 
+/// A spring between two bodies, in coordinates in which both masses are one.
+struct Spring {
+    on: [Vector6<f64>; 2],
+    bodies: [usize; 2],
+    /// Stiffness, N/m.
+    stiffness: f64,
+}
+
 /// Largest eigenvalue of Bᵀ·K·B by power iteration.
 fn largest_eigenvalue(bodies: &[Body], rows: &[(Row, f64)]) -> f64 {
-    let roots: Vec<(Vector6<f64>, Vector6<f64>, usize, usize, f64)> = rows
+    let springs: Vec<Spring> = rows
         .iter()
-        .map(|(row, k)| {
+        .map(|(row, stiffness)| {
             let on = |body: usize, on: &Vector6<f64>| bodies[body].root.coordinates_of_impulse(on);
-            (on(row.a, &row.on_a), on(row.b, &row.on_b), row.a, row.b, *k)
+            Spring {
+                on: [on(row.a, &row.on_a), on(row.b, &row.on_b)],
+                bodies: [row.a, row.b],
+                stiffness: *stiffness,
+            }
         })
         .collect();
     // Unlike numbers, so that no mode is missed by symmetry.
@@ -279,10 +291,10 @@ fn largest_eigenvalue(bodies: &[Body], rows: &[(Row, f64)]) -> f64 {
             return 0.0;
         }
         let mut next = vec![Vector6::zeros(); bodies.len()];
-        for (on_a, on_b, a, b, k) in &roots {
-            let stretch = (on_a.dot(&z[*a]) + on_b.dot(&z[*b])) * (k / norm);
-            next[*a] += on_a * stretch;
-            next[*b] += on_b * stretch;
+        for Spring { on, bodies: [a, b], stiffness } in &springs {
+            let stretch = (on[0].dot(&z[*a]) + on[1].dot(&z[*b])) * (stiffness / norm);
+            next[*a] += on[0] * stretch;
+            next[*b] += on[1] * stretch;
         }
         eigenvalue = next.iter().map(Vector6::norm_squared).sum::<f64>().sqrt();
         z = next;
