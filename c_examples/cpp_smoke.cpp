@@ -135,6 +135,13 @@ void list_and_restore(pong::World& world) {
     require(std::string(world.primitive_path(contacts[0].a.interface, contacts[0].a.primitive)) == "ball/shell",
             "the contact names the sphere");
     world.start_pair_monitor();
+    world.evaluate();
+    const auto tangents = world.tangents(), differences = world.tangents_by_differences();
+    const double up_by_up = tangents[0].stiffness[0][0][14];
+    require(tangents.size() == 1 && differences.size() == 1 && std::fabs(up_by_up / stiffness[0].first - 1) < 1e-9 &&
+                std::fabs(differences[0].stiffness[0][0][14] / up_by_up - 1) < 1e-4 &&
+                world.contact_tangents()[0].normal_stiffness == stiffness[0].first,
+            "a ball on the ground has the stiffness of its contact");
     world.step();
     world.observe_pairs(1e-3);
     const auto changes = world.contact_changes();

@@ -180,9 +180,13 @@ static void order_before_seal(scene *s)
 static void order_after_seal(scene *s)
 {
     pong_wrench wrench;
+    pong_tangent tangent;
     pong_model_id model;
     pong_object_id object;
+    size_t count;
     REFUSED(pong_get_wrench(s->world, s->interfaces[0], PONG_REFERENCE_FRAME_GROUP, &wrench), WRONG_PHASE, "evaluate");
+    REFUSED(pong_get_tangents(s->world, &tangent, 1, &count), WRONG_PHASE, "evaluate a frame");
+    REFUSED(pong_get_tangents_by_differences(s->world, &tangent, 1, &count), WRONG_PHASE, "evaluate a frame");
     REFUSED(pong_step(s->world), UNSET_STATE, "ball/ball");
     REFUSED(pong_commit(s->world), UNSET_STATE, "ball/ball");
     REFUSED(pong_seal(s->world, NULL), WRONG_PHASE, "before the world is sealed");
@@ -260,6 +264,30 @@ static void named_twice(scene *s)
     OK(pong_set_states(s->world, twice + 1, s->states + 1, 1));
 }
 
+static void bad_tangents(scene *s)
+{
+    pong_contact_tangent contact;
+    pong_tangent tangent;
+    size_t count = 77;
+    REFUSED(pong_get_contact_tangents(s->world, NULL, 0, &count), BUFFER_TOO_SMALL, "there are 1");
+    TEST(count == 1);
+    REFUSED(pong_get_contact_tangents(s->world, NULL, 1, &count), NULL_ARGUMENT, "`tangents`");
+    REFUSED(pong_get_contact_tangents(s->world, &contact, 1, NULL), NULL_ARGUMENT, "`count`");
+    REFUSED(pong_get_contact_tangents(s->world, (pong_contact_tangent *)&count, 1, &count), BAD_VALUE, "share memory");
+    OK(pong_evaluate(s->world));
+    count = 77;
+    REFUSED(pong_get_tangents(s->world, NULL, 0, &count), BUFFER_TOO_SMALL, "there are 1");
+    TEST(count == 1);
+    REFUSED(pong_get_tangents(s->world, NULL, 1, &count), NULL_ARGUMENT, "`tangents`");
+    REFUSED(pong_get_tangents(s->world, &tangent, 1, NULL), NULL_ARGUMENT, "`count`");
+    REFUSED(pong_get_tangents(NULL, &tangent, 1, &count), NULL_ARGUMENT, "`world`");
+    count = 77;
+    REFUSED(pong_get_tangents_by_differences(s->world, NULL, 0, &count), BUFFER_TOO_SMALL, "there are 1");
+    TEST(count == 1);
+    REFUSED(pong_get_tangents_by_differences(s->world, NULL, 1, &count), NULL_ARGUMENT, "`tangents`");
+    REFUSED(pong_get_tangents_by_differences(s->world, &tangent, 1, NULL), NULL_ARGUMENT, "`count`");
+}
+
 static void bad_results(scene *s)
 {
     pong_wrench wrench;
@@ -291,6 +319,7 @@ static void bad_results(scene *s)
     REFUSED(pong_get_contact_stiffness(s->world, NULL, &number, 1, &count), NULL_ARGUMENT, "`stiffness`");
     REFUSED(pong_get_contact_stiffness(s->world, &number, &number, 1, &count), BAD_VALUE, "`damping`");
     REFUSED(pong_get_contact_stiffness(s->world, NULL, NULL, 0, NULL), NULL_ARGUMENT, "`count`");
+    bad_tangents(s);
     REFUSED(pong_get_report(s->world, NULL), NULL_ARGUMENT, "`report`");
     REFUSED(pong_tally_count(s->world, NULL), NULL_ARGUMENT, "`count`");
     REFUSED(pong_get_tally(s->world, 0, NULL), NULL_ARGUMENT, "`tally`");

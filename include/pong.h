@@ -102,7 +102,7 @@ const char *pong_last_message(void);
 /* ---- Version --------------------------------------------------------------------------------------------- */
 
 /// Hash of every layout in this header; see PONG_CHECK_ABI().
-#define PONG_LAYOUT_HASH 0xe33d96005733ba00ULL
+#define PONG_LAYOUT_HASH 0x68719e658ceadac9ULL
 
 /// Checks that this header fits the library: call it first.
 #define PONG_CHECK_ABI() pong_check_abi(PONG_ABI_VERSION, PONG_LAYOUT_HASH)
@@ -760,6 +760,73 @@ pong_status pong_get_contact_stiffness(const struct pong_world *world,
 /// Checks the planned step against the contacts of the last frame, with their actual lever arms and normals.
 /// Allocates. PONG_STATUS_WRONG_PHASE: no step was planned before the seal, or there is no frame.
 pong_status pong_check_step(const struct pong_world *world, struct pong_step_check *check);
+
+/* ---- Results: tangents ----------------------------------------------------------------------------------- */
+
+/// Derivatives of the wrenches that two movable groups put on each other.
+///
+/// x is a pose: translation of the group's origin, m, and rotation vector, rad. v is a twist: velocity of the
+/// origin, m/s, and angular velocity, rad/s. W is a wrench: force, N, and moment about the group's origin, N m. All of
+/// them are along common axes. A matrix has 6 rows, one for each number of W, and 6 columns, one for each number of x
+/// or v; row r and column c are number 6 r + c.
+typedef struct pong_tangent {
+    /// The two movable groups, in the order of pong_contact_change.
+    struct pong_interface_id interfaces[2];
+    /// `stiffness[i][j]` is minus the derivative of W of group i by x of group j, N/m, N/rad, N and N m/rad. A spring
+    /// that pushes back has a positive diagonal.
+    double stiffness[2][2][36];
+    /// `damping[i][j]` is minus the derivative of W of group i by v of group j, N s/m, N s/rad, N s and N m s/rad.
+    double damping[2][2][36];
+} pong_tangent;
+
+/// Stiffness and damping of one contact, its weight included.
+typedef struct pong_contact_tangent {
+    /// Derivative of the normal force by the depth, N/m; zero where the force is cut off at zero.
+    double normal_stiffness;
+    /// Derivative of the normal force by the depth rate, N s/m; zero where the force is cut off at zero.
+    double normal_damping;
+    /// Stiffness of the bristle while it sticks, N/m; zero while it slips and for laws without a bristle.
+    double tangential_stiffness;
+    /// Damping of the bristle while it sticks, N s/m; zero while it slips and for laws without a bristle.
+    double tangential_damping;
+} pong_contact_tangent;
+
+/// Copies the derivatives of the wrenches of the last frame for every two movable groups that touch, in closed form and
+/// always in the same order: the first `capacity`; `count` gets their number. They are those of what pong_evaluate()
+/// computes from the committed contact state, with the contacts of the frame: turning normals, moving places, weights,
+/// sticking and slipping friction included. The matrices are not symmetric where friction or damping acts. See
+/// docs/theory.md, 7. A frame pays nothing. Allocates.
+///
+/// PONG_STATUS_WRONG_PHASE: call it between pong_evaluate() and the commit. PONG_STATUS_BAD_VALUE: a contact has
+/// derivatives that are not known in closed form, such as that of two solids or of a law of the host's; the message
+/// names it, and pong_get_tangents_by_differences() has them. PONG_STATUS_BUFFER_TOO_SMALL if not all fit;
+/// `group_pairs` of the seal report is always enough. With capacity 0 `tangents` may be NULL.
+pong_status pong_get_tangents(const struct pong_world *world,
+                              struct pong_tangent *tangents,
+                              size_t capacity,
+                              size_t *count);
+
+/// As pong_get_tangents(), by central differences, for every law and every kind of contact: two evaluations for each of
+/// the 12 numbers of pose and twist of each group that touches. The width of a difference is 1e-4 of the least depth of
+/// the group's contacts. Contacts that begin or end within that width, and friction that begins to slip, spoil the
+/// result. The states and the frame are those of before. Allocates.
+///
+/// PONG_STATUS_WRONG_PHASE: call it between pong_evaluate() and the commit. Otherwise errors as for pong_evaluate() at
+/// the states in between; after PONG_STATUS_LAW_FAILED the frame does not count. PONG_STATUS_BUFFER_TOO_SMALL if not all fit. With capacity 0 `tangents` may be NULL.
+pong_status pong_get_tangents_by_differences(struct pong_world *world,
+                                             struct pong_tangent *tangents,
+                                             size_t capacity,
+                                             size_t *count);
+
+/// Copies stiffness and damping of each contact of the last frame, in the order of pong_get_contacts(): the first
+/// `capacity`; `count` gets their number. All four are not a number (NaN) for a law of the host's, for contacts of
+/// solids and for forces against rolling and spinning. After pong_set_surface() they follow the new values, but the
+/// contacts are still those of the frame: evaluate first. PONG_STATUS_BUFFER_TOO_SMALL if not all fit; the contact
+/// capacity of the seal report is always enough. With capacity 0 `tangents` may be NULL.
+pong_status pong_get_contact_tangents(const struct pong_world *world,
+                                      struct pong_contact_tangent *tangents,
+                                      size_t capacity,
+                                      size_t *count);
 
 /* ---- Results: distance ----------------------------------------------------------------------------------- */
 

@@ -59,6 +59,8 @@ using LogReport = pong_log_report;
 using Worker = pong_worker;
 using Report = pong_report;
 using Tally = pong_tally;
+using Tangent = pong_tangent;
+using ContactTangent = pong_contact_tangent;
 using Ledger = pong_ledger;
 using EnergyAccount = pong_energy_account;
 using PairEnergyAccount = pong_pair_energy_account;
@@ -282,9 +284,34 @@ public:
         }
         return all;
     }
+    /// Stiffness and damping of the contacts of the last frame, in the order of contacts(). Allocates.
+    std::vector<ContactTangent> contact_tangents() const {
+        return list<ContactTangent>([&](ContactTangent* out, std::size_t capacity, std::size_t* count) {
+            return pong_get_contact_tangents(get(), out, capacity, count);
+        });
+    }
     /// Checks the planned step against the contacts of the last frame: pong_check_step(). Allocates.
     StepCheck check_step() const {
         return result<StepCheck>([&](StepCheck* out) { return pong_check_step(get(), out); });
+    }
+
+    // Results: tangents.
+
+    /// Derivatives of the wrenches for every two movable groups that touch: pong_get_tangents(). Between evaluate() and
+    /// commit(). Allocates.
+    std::vector<Tangent> tangents() const {
+        std::vector<Tangent> all(contact_count());
+        all.resize(result<std::size_t>(
+            [&](std::size_t* count) { return pong_get_tangents(get(), all.data(), all.size(), count); }));
+        return all;
+    }
+    /// As tangents(), by central differences: pong_get_tangents_by_differences(). Allocates.
+    std::vector<Tangent> tangents_by_differences() {
+        std::vector<Tangent> all(contact_count());
+        all.resize(result<std::size_t>([&](std::size_t* count) {
+            return pong_get_tangents_by_differences(get(), all.data(), all.size(), count);
+        }));
+        return all;
     }
 
     // Results: distance.

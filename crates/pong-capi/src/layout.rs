@@ -18,6 +18,7 @@ use crate::step_plan::{pong_joints, pong_mass, pong_step_check, pong_step_plan};
 use crate::surface_motions::pong_surface_motion;
 use crate::surfaces::{pong_surface_more, pong_surface_values};
 use crate::tally::pong_tally;
+use crate::tangents::{pong_contact_tangent, pong_tangent};
 use crate::worker::pong_worker;
 use crate::wrenches::pong_wrench;
 use pong_model::Fnv;
@@ -86,6 +87,8 @@ layouts! {
         pair, a, b, feature_kind, feature_index, end, sticks, point, normal, depth, depth_rate, weight, normal_force,
         friction_force, force, slip_velocity, stored,
     }
+    pong_tangent { interfaces, stiffness, damping }
+    pong_contact_tangent { normal_stiffness, normal_damping, tangential_stiffness, tangential_damping }
     pong_contact_change { pair, interfaces, begins, reserved }
     pong_pair_peaks {
         pair, interfaces, peak_normal_force, mean, contact_time, window, begins, ends, touches, reserved,

@@ -417,6 +417,7 @@ impl Session<'_> {
                 finite(slopes.iter().flatten(), "contact stiffness");
             }
         }
+        self.tangents(world, known, &contacts);
     }
 
     fn report(&mut self) {

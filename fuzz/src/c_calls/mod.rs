@@ -10,7 +10,7 @@
 //! | `host.rs` | a world and the harness's knowledge of it |
 //! | `laws.rs` | laws by callback, well behaved or not |
 //! | `set_up.rs`, `step_plans.rs`, `look_up.rs`, `frames.rs`, `between.rs`, `logs.rs` | the calls, by phase |
-//! | `accounts.rs` | energy accounts |
+//! | `accounts.rs`, `tangents.rs` | energy accounts, tangents of a frame |
 //! | `misuse.rs` | two threads on one world |
 //!
 //! Some inputs run twice, the second time without the calls that were refused the first time. Every frame
@@ -27,6 +27,7 @@ mod misuse;
 mod session;
 mod set_up;
 mod step_plans;
+mod tangents;
 
 use crate::count;
 use crate::input::Input;

@@ -170,6 +170,18 @@ pub(crate) fn motion_row(pose: &Pose, twist: &Twist) -> [f64; STATE] {
     [p.x, p.y, p.z, q.w, q.i, q.j, q.k, v.x, v.y, v.z, w.x, w.y, w.z]
 }
 
+/// Numbers of a state as it was set; NaN without one.
+pub(crate) fn state_row(state: Option<&State>) -> [f64; STATE] {
+    let mut row = [f64::NAN; STATE];
+    if let Some(state) = state {
+        row[..3].copy_from_slice(&state.position);
+        row[3..7].copy_from_slice(&state.orientation);
+        row[7..10].copy_from_slice(&state.linear_velocity);
+        row[10..].copy_from_slice(&state.angular_velocity);
+    }
+    row
+}
+
 /// The six numbers of a wrench.
 pub(crate) fn wrench_row(wrench: &Wrench) -> [f64; WRENCH] {
     let (f, m) = (&wrench.force, &wrench.moment);

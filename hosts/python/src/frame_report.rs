@@ -1,6 +1,6 @@
 //! Report of a frame.
 
-use pong_engine::Continuation;
+use pong_engine::{Continuation, EngineError, World};
 use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyDict};
 
@@ -50,4 +50,12 @@ pub(crate) fn continued<'py>(py: Python<'py>, of: &Continuation) -> PyResult<Bou
     let told = counts.into_py_dict(py)?;
     told.set_item("energy_left", of.energy_left)?;
     Ok(told)
+}
+
+/// Description of a tunnelling event since the last commit.
+pub(crate) fn tunnelling(world: &World) -> Result<Option<String>, EngineError> {
+    let Some(event) = world.tunnelling() else { return Ok(None) };
+    let path = world.scene().primitive_path(event.interface, event.primitive)?;
+    let through = world.scene().interface_name(event.through)?;
+    Ok(Some(format!("`{path}` through `{through}` (1 of {})", event.count)))
 }

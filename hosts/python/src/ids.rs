@@ -1,7 +1,7 @@
 //! Models, Objects, pairs and Interfaces of a world, and their forms as arguments.
 
 use crate::arrays::refused;
-use crate::errors::of_engine;
+use crate::errors::{bad_value, of_engine};
 use pong_engine::{InterfaceId, ModelId, ObjectId, PairId, Scene};
 use pyo3::prelude::*;
 
@@ -78,6 +78,18 @@ impl ObjectRef<'_> {
 pub(crate) fn interface(scene: &Scene, id: InterfaceId) -> PyResult<Interface> {
     let name = scene.interface_name(id).map_err(of_engine)?;
     Ok(Interface { id, name })
+}
+
+/// All Objects of a world.
+pub(crate) fn objects(scene: &Scene) -> PyResult<Vec<Object>> {
+    let object = |id| Ok(Object { id, name: scene.object_name(id).map_err(of_engine)?.to_owned() });
+    scene.objects().map(object).collect()
+}
+
+/// Error for a number that no Interface of a world has.
+pub(crate) fn no_interface(number: usize, count: usize) -> PyErr {
+    let cause = format!("there is no Interface {number}, the world has {count}");
+    bad_value("interface", cause, "take the number from a contact")
 }
 
 /// All Interfaces of a world, in the order of the rows of arrays.

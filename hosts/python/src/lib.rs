@@ -9,6 +9,7 @@
 //! | `model.rs` | models |
 //! | `authored.rs`, `written.rs`, `shapes.rs`, `joined.rs` | model files as data, their text and schema, checks of single shapes, joined files: python/pong/model.py |
 //! | `distance.rs` | distance of two movable groups |
+//! | `tangents.rs` | derivatives of wrenches and of the forces of contacts |
 //! | `pair_monitor.rs` | begin and end of contact, peaks over several frames |
 //! | `setup.rs`, `builder.rs` | state and calls of a set-up |
 //! | `sealed.rs`, `world.rs` | state and calls of a sealed world: frames |
@@ -43,6 +44,7 @@ mod sealed;
 mod setup;
 mod shapes;
 mod simulation;
+mod tangents;
 mod trade;
 mod tune;
 mod verify;
@@ -75,6 +77,7 @@ fn _pong(module: &Bound<'_, PyModule>) -> PyResult<()> {
     add_class::<distance::Distance>(module)?;
     add_class::<pair_monitor::ContactChange>(module)?;
     add_class::<pair_monitor::PairPeaks>(module)?;
+    add_class::<tangents::Tangent>(module)?;
     add_class::<scene::Scene>(module)?;
     add_class::<simulation::Simulation>(module)?;
     add_class::<run::Run>(module)?;

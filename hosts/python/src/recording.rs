@@ -1,6 +1,6 @@
 //! Response logs of a world whose frames a Python program computes.
 
-use crate::errors::{LogError, of_log};
+use crate::errors::{LogError, PhaseError, of_log};
 use pong_engine::World;
 use pong_record::{ModelSource, RecordOptions, Recorder};
 use pyo3::prelude::*;
@@ -34,4 +34,19 @@ pub(crate) fn finish(py: Python<'_>, recorder: Recorder) -> PyResult<u64> {
         None => Ok(status.frames),
         Some(text) => Err(LogError::new_err(text)),
     }
+}
+
+/// Records preloaded friction, like a restored contact state.
+pub(crate) fn preloaded(recorder: &mut Recorder, world: &World) {
+    let mut block = Vec::new();
+    world.save_state_packed(&mut block);
+    recorder.restored(&block);
+}
+
+/// Error for a world that is to go on where another one is while its log is running.
+pub(crate) fn is_running() -> PyErr {
+    PhaseError::new_err(
+        "continue from another world: a log of this one is running, and the run of the other is not in it; stop it \
+         with stop_log() first, and begin another one afterwards",
+    )
 }

@@ -1,6 +1,6 @@
 //! Calls of a sealed world: frames.
 
-use crate::arrays::{self, Matrix, STATE, WRENCH};
+use crate::arrays::{self, Matrix, WRENCH};
 use crate::distance::Distance;
 use crate::errors::{PhaseError, bad_value, of_engine};
 use crate::frame_report::{self, FrameReport};
@@ -9,10 +9,11 @@ use crate::model::{surface_from, surface_values};
 use crate::pair_monitor::{ContactChange, PairPeaks, no_monitor};
 use crate::sealed::{Inner, World};
 use crate::setup::WorldBuilder;
+use crate::tangents::{self, Tangent};
 use crate::{advice, contacts, recording};
 use numpy::PyArray1;
 use pong_advise::StepPlan;
-use pong_engine::{EngineError, FrictionPreload, PairMonitor};
+use pong_engine::{FrictionPreload, PairMonitor};
 use pong_record::{RecordOptions, Recorder, WhenFull};
 use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyBytes, PyDict};
@@ -77,12 +78,7 @@ impl World {
     /// list of Object : All Objects.
     #[getter]
     fn objects(&self) -> PyResult<Vec<Object>> {
-        let inner = self.lock()?;
-        let object = |id| {
-            let name = inner.world.scene().object_name(id).map_err(of_engine)?;
-            Ok(Object { id, name: name.to_owned() })
-        };
-        inner.world.scene().objects().map(object).collect()
+        ids::objects(self.lock()?.world.scene())
     }
 
     /// list of Pair : All pairs.
@@ -151,8 +147,7 @@ impl World {
     ///     `object/path`.
     fn primitive_path(&self, interface: usize, primitive: u32) -> PyResult<String> {
         let Some(id) = self.ids.get(interface) else {
-            let cause = format!("there is no Interface {interface}, the world has {}", self.ids.len());
-            return Err(bad_value("interface", cause, "take the number from a contact"));
+            return Err(ids::no_interface(interface, self.ids.len()));
         };
         let inner = self.lock()?;
         let path = inner.world.scene().primitive_path(*id, primitive).map_err(of_engine)?;
@@ -250,15 +245,7 @@ impl World {
     fn states<'py>(&self, py: Python<'py>, out: Option<Bound<'py, PyAny>>) -> PyResult<Matrix<'py>> {
         let inner = self.lock()?;
         arrays::fill(py, out, self.ids.len(), |index| {
-            let state = inner.world.state_as_set(self.ids[index]).map_err(of_engine)?;
-            let mut row = [f64::NAN; STATE];
-            if let Some(state) = state {
-                row[..3].copy_from_slice(&state.position);
-                row[3..7].copy_from_slice(&state.orientation);
-                row[7..10].copy_from_slice(&state.linear_velocity);
-                row[10..].copy_from_slice(&state.angular_velocity);
-            }
-            Ok(row)
+            Ok(arrays::state_row(inner.world.state_as_set(self.ids[index]).map_err(of_engine)?))
         })
     }
 
@@ -497,6 +484,40 @@ impl World {
         contacts::stiffness(py, &self.lock()?.world)
     }
 
+    /// Returns stiffness and damping of each contact, along its normal and of its bristle.
+    ///
+    /// Returns
+    /// -------
+    /// ndarray, shape (k, 4)
+    ///     Stiffness (N/m) and damping (N·s/m) along the normal, then those of the bristle while it sticks, else 0; in the
+    ///     order of `contacts`. NaN for a law of the host, solids, and forces against rolling and spinning.
+    fn contact_tangents<'py>(&self, py: Python<'py>) -> PyResult<Matrix<'py>> {
+        tangents::of_contacts(py, &self.lock()?.world)
+    }
+
+    /// Returns the derivatives of the wrenches of the last frame, between `evaluate` and the commit, for every two groups
+    /// that touch (docs/theory.md, 7). The frame stays as it is.
+    ///
+    /// Parameters
+    /// ----------
+    /// differences : bool, default False
+    ///     Central differences instead of the closed form: for all kinds of contact, and slower.
+    ///
+    /// Returns
+    /// -------
+    /// list of Tangent
+    ///
+    /// Raises
+    /// ------
+    /// PhaseError
+    ///     No frame is evaluated, or it is committed.
+    /// BadValueError
+    ///     A contact has derivatives that are not known in closed form: use `differences=True`.
+    #[pyo3(signature = (differences = false))]
+    fn tangents(&self, py: Python<'_>, differences: bool) -> PyResult<Vec<Tangent>> {
+        tangents::of_frame(py, &mut self.lock()?.world, differences)
+    }
+
     /// Returns the report of the last frame.
     ///
     /// Returns
@@ -513,14 +534,7 @@ impl World {
     /// str or None
     ///     The event; None if there was none.
     fn tunnelling(&self) -> PyResult<Option<String>> {
-        let inner = self.lock()?;
-        let Some(event) = inner.world.tunnelling() else { return Ok(None) };
-        let told = || -> Result<String, EngineError> {
-            let path = inner.world.scene().primitive_path(event.interface, event.primitive)?;
-            let through = inner.world.scene().interface_name(event.through)?;
-            Ok(format!("`{path}` through `{through}` (1 of {})", event.count))
-        };
-        told().map(Some).map_err(of_engine)
+        frame_report::tunnelling(&self.lock()?.world).map_err(of_engine)
     }
 
     /// Returns the committed contact state.
@@ -587,10 +601,7 @@ impl World {
         }
         let (mut inner, other) = (slf.get().lock()?, other.get().lock()?);
         if inner.recorder.is_some() {
-            return Err(PhaseError::new_err(
-                "continue from another world: a log of this one is running, and the run of the other is not in it; stop it \
-                 with stop_log() first, and begin another one afterwards",
-            ));
+            return Err(recording::is_running());
         }
         let of = inner.world.continue_from(&other.world).map_err(of_engine)?;
         frame_report::continued(slf.py(), &of)
@@ -703,12 +714,7 @@ impl World {
         let mut inner = self.lock()?;
         let Inner { world, recorder, .. } = &mut **inner;
         let set = world.preload_friction(pair.id, &preload).map_err(of_engine)?;
-        // Logged like a restored contact state.
-        if let Some(recorder) = recorder {
-            let mut block = Vec::new();
-            world.save_state_packed(&mut block);
-            recorder.restored(&block);
-        }
+        recorder.iter_mut().for_each(|recorder| recording::preloaded(recorder, world));
         Ok(set)
     }
 
@@ -755,14 +761,9 @@ impl World {
         lose: bool,
     ) -> PyResult<()> {
         let mut inner = self.lock()?;
-        let options = RecordOptions {
-            name: name.to_owned(),
-            step,
-            commits_per_frame,
-            overwrite,
-            when_full: if lose { WhenFull::Lose } else { WhenFull::Wait },
-            ..RecordOptions::default()
-        };
+        let when_full = if lose { WhenFull::Lose } else { WhenFull::Wait };
+        let options = RecordOptions { name: name.to_owned(), step, ..RecordOptions::default() };
+        let options = RecordOptions { commits_per_frame, overwrite, when_full, ..options };
         if inner.recorder.is_some() {
             return Err(PhaseError::new_err("log: one is open already; call stop_log first"));
         }

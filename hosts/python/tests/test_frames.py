@@ -378,6 +378,31 @@ def test_stiffness_and_damping_of_contacts():
     assert made.contact_stiffness().shape == (0, 2)
 
 
+def test_tangents():
+    """A ball on a rigid floor: 2e4 N/m and 30 N·s/m along z, against each other; bristles of half the stiffness add more."""
+    made = world()
+    with pytest.raises(pong.PhaseError, match="tangent"):
+        made.tangents()
+    made.set_states(touching(1e-3, velocity=(0.0, 0.0, -0.1)))
+    made.evaluate()
+    before = made.wrenches()
+    (tangent,), (differences,) = made.tangents(), made.tangents(differences=True)
+    assert (tangent.interface_a, tangent.interface_b) == (0, 1)
+    assert tangent.stiffness.shape == tangent.damping.shape == (2, 2, 6, 6)
+    signs = np.array([[1.0, -1.0], [-1.0, 1.0]])
+    np.testing.assert_allclose(tangent.stiffness[:, :, 2, 2], STIFFNESS * signs, rtol=1e-9)
+    np.testing.assert_allclose(tangent.damping[:, :, 2, 2], DAMPING * signs, rtol=1e-9)
+    np.testing.assert_allclose(differences.stiffness, tangent.stiffness, atol=1e-4 * STIFFNESS)
+    np.testing.assert_allclose(differences.damping, tangent.damping, atol=1e-4 * DAMPING)
+    np.testing.assert_array_equal(made.wrenches(), before)
+    made.commit()
+    with pytest.raises(pong.PhaseError, match="before it is committed"):
+        made.tangents(differences=True)
+    (row,) = made.contact_tangents()
+    np.testing.assert_allclose(row[:2], [STIFFNESS, DAMPING], rtol=1e-12)
+    assert row[2] > 0.0
+
+
 LANDER = BALL.replace("primitives: [", """groups: [(name: "arm", movable: true,
     primitives: [Point(name: "tip", position: (0, 0, 0))]), (name: "body", primitives: [""").replace("]),\n)", "])]),\n)")
 

@@ -3,7 +3,7 @@
 | type | returned by |
 |---|---|
 | `AddedModel`, `Object`, `Pair`, `Interface` | `WorldBuilder`, `World`: what was set up, and its number |
-| `FrameReport`, `ContactChange`, `PairPeaks`, `Distance` | `World`: frames |
+| `FrameReport`, `ContactChange`, `PairPeaks`, `Distance`, `Tangent` | `World`: frames |
 | `Run` | `Simulation.run` |
 | `Replay`, `Trade` with `Level`, `Tuned` | `replay`, `trade`, `tune` |
 | `BatchRuns` | `Batch.run` |
@@ -30,6 +30,7 @@ from ._pong import (
     Replay,
     Row,
     Run,
+    Tangent,
     Trade,
     Tuned,
 )
@@ -52,6 +53,7 @@ __all__ = [
     "Replay",
     "Row",
     "Run",
+    "Tangent",
     "Trade",
     "Tuned",
 ]
