@@ -6,6 +6,7 @@ mod common;
 mod contact;
 mod exchange;
 mod free_flight;
+mod modes;
 mod moving_surfaces;
 mod resistance;
 mod scene_faults;
