@@ -4,7 +4,7 @@
 //! undamped system predicts the two roots of s² + (qᵀDq)·s + qᵀKq = 0; the eigenvalues nearest to them are those of this
 //! mode.
 
-use super::undamped::{ModeKind, bad};
+use super::kind::{ModeKind, bad};
 use nalgebra::{Complex, DMatrix, Schur};
 use pong_engine::EngineError;
 

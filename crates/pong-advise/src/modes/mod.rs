@@ -11,12 +11,15 @@
 //! |---|---|
 //! | `system.rs` | masses, K and D about the mass centres; contacts and springs that carry them |
 //! | `undamped.rs` | frequencies and shapes without damping |
+//! | `kind.rs` | kinds of modes, errors |
 //! | `damped.rs` | eigenvalues with damping, matched to the modes; growing motions |
 
 mod damped;
+mod kind;
 mod system;
 mod undamped;
 
 pub use damped::Growth;
+pub use kind::ModeKind;
 pub use system::{Carrier, LinearBody, LinearSystem};
-pub use undamped::{BodyShape, Mode, ModeKind, Modes};
+pub use undamped::{BodyShape, Mode, Modes};

@@ -1,6 +1,7 @@
 //! Frequencies and shapes without damping: eigenvalues of M^(−½)·½(K + Kᵀ)·M^(−½).
 
 use super::damped::{Damped, Growth};
+use super::kind::{ModeKind, bad};
 use super::system::{LinearSystem, symmetric};
 use crate::mobility::Vec6;
 use nalgebra::{Complex, DMatrix, DVector};
@@ -10,17 +11,6 @@ use pong_geometry::Vec3;
 /// Eigenvalues within this share of each other have one space of shapes, and the shapes along the axes are chosen.
 const EQUAL: f64 = 1e-7;
 
-/// Kind of a mode.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ModeKind {
-    /// No stiffness: the bodies move as one or slide freely.
-    Rigid,
-    /// An oscillation.
-    Oscillation,
-    /// Negative stiffness: the state is not stable.
-    Unstable,
-}
-
 /// Motion of one body in a mode.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BodyShape {
@@ -28,9 +18,9 @@ pub struct BodyShape {
     pub translation: Vec3,
     /// Rotation vector, rad, along the common axes.
     pub rotation: Vec3,
-    /// Share of the kinetic energy of the mode in the translation of this body.
+    /// Share of the kinetic energy of the mode in the translation of this body, dimensionless.
     pub translation_share: f64,
-    /// Share of the kinetic energy of the mode in the rotation of this body.
+    /// Share of the kinetic energy of the mode in the rotation of this body, dimensionless.
     pub rotation_share: f64,
 }
 
@@ -43,7 +33,7 @@ pub struct Mode {
     pub rate: f64,
     /// Frequency without damping, Hz; 0 unless the mode is an oscillation.
     pub frequency: f64,
-    /// Damping over critical damping, from the eigenvalues of the damped system; below 0 if the motion grows. `None`
+    /// Damping over critical damping, dimensionless, from the eigenvalues of the damped system; below 0 if the motion grows. `None`
     /// unless the mode is an oscillation.
     pub damping_ratio: Option<f64>,
     /// The two eigenvalues of the damped system that belong to this mode, 1/s. `None` unless the mode is an
@@ -126,10 +116,6 @@ impl LinearSystem {
             shares,
         }
     }
-}
-
-pub(super) fn bad(cause: &str) -> EngineError {
-    EngineError::BadValue { what: "modes".to_owned(), cause: cause.to_owned() }
 }
 
 /// Eigenvalues in rising order, with their vectors as columns.
