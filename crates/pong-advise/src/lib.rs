@@ -21,6 +21,7 @@
 //! | `setting.rs`, `limits.rs` | the world and the known masses; the limits of a step |
 //! | `pressed.rs` | single contacts of a frame, each at its depth and normal force |
 //! | `stored.rs` | energy in the springs of a frame's contacts |
+//! | `modes/` | frequencies, damping ratios and shapes of masses on a tangent |
 //! | `check.rs`, `warn.rs` | every pair of movable groups against the host's step; the warnings and notes |
 
 #![forbid(unsafe_code)]
@@ -36,6 +37,7 @@ mod footprint;
 mod limits;
 mod mass;
 mod mobility;
+mod modes;
 mod places;
 mod pressed;
 mod setting;
@@ -59,6 +61,7 @@ pub use coupling::longest_stable_step;
 pub use delay::critical_delay;
 pub use limits::{BounceLimit, GroupLimits, PairLimits, SpringLimit, judge_contact};
 pub use mass::{GroupMass, Joints, SpringRates, StepPlan};
+pub use modes::{BodyShape, Carrier, Growth, LinearBody, LinearSystem, Mode, ModeKind, Modes};
 pub use pong_engine::WrenchCoupling;
 pub use pressed::pressed_report;
 pub use spring::Spring;

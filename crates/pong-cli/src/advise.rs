@@ -7,9 +7,10 @@ mod limits;
 pub(crate) use arguments::Arguments;
 
 use crate::terminal::{Outcome, print};
-use crate::text::number;
+use crate::text::{count, number};
 use pong_advise::{StepPlan, WrenchCoupling, judge_contact};
 use pong_engine::{Laws, World, combine_surfaces};
+use pong_executive::Simulation;
 use pong_executive::scene::Scene;
 use pong_model::{FrictionLaw, Model, NormalLaw, Surface, printable};
 use std::path::Path;
@@ -43,7 +44,7 @@ fn wish_alone(arguments: &Arguments) -> Result<String, String> {
 
 fn scene(arguments: &Arguments, path: &Path) -> Result<String, String> {
     let scene = Scene::load(path).map(|scene| scene.with_extensions(arguments.allowed.extensions()));
-    let built = scene.and_then(|scene| scene.build()).map_err(|errors| errors.to_string())?;
+    let mut built = scene.and_then(|scene| scene.build()).map_err(|errors| errors.to_string())?;
     if !arguments.mass.is_empty() {
         return Err("--mass: a scene has masses of its own; leave it out".to_owned());
     }
@@ -71,6 +72,7 @@ fn scene(arguments: &Arguments, path: &Path) -> Result<String, String> {
     for note in &report.notes {
         text += &format!("note: {}\n", printable(&note.to_string()));
     }
+    text += &acting_at_start(&mut built.simulation, &plan);
     if has_solids(built.simulation.world()) {
         text += "note: solids are judged flat on each other, on the area of the smaller one's largest face or shadow, and \
                  not added up; `pong run` judges what touches (docs/advise.md, Solids)\n";
@@ -87,6 +89,28 @@ fn scene(arguments: &Arguments, path: &Path) -> Result<String, String> {
         }
     }
     Ok(text)
+}
+
+/// Limit of the contacts that act at the start of a scene, from their tangent; empty if nothing touches.
+fn acting_at_start(simulation: &mut Simulation, plan: &StepPlan) -> String {
+    let Ok(linear) = simulation.linearised() else { return String::new() };
+    let held = matches!(plan.coupling, WrenchCoupling::ZeroOrderHold { .. });
+    // Between held wrenches the springs are integrated with the motion, and this limit counts them as held.
+    if linear.contacts == 0 || (held && !simulation.springs().is_empty()) {
+        return String::new();
+    }
+    let rates = linear.system.largest_rates();
+    let contacts = count(linear.contacts, "contact acts", "contacts act");
+    let head = format!(
+        "At the start {contacts}, M⁻¹K at most {} 1/s² and M⁻¹D at most {} 1/s by the tangent: ",
+        number(rates.stiffness),
+        number(rates.damping)
+    );
+    if linear.slipping > 0 {
+        return head + "no proof of a step, because friction slips\n";
+    }
+    let step = linear.system.surely_stable_step(plan.coupling, linear.least_ratio);
+    head + &format!("surely stable to {} s as long as these contacts act\n", number(step))
 }
 
 /// Returns true if a movable group of a world has solids.

@@ -19,6 +19,7 @@ mod join;
 mod log;
 mod man_pages;
 mod mass;
+mod modes;
 mod placed;
 mod replay;
 mod run;
@@ -54,6 +55,7 @@ enum Command {
     Log(log::Arguments),
     ManPages(man_pages::Arguments),
     Mass(mass::Arguments),
+    Modes(modes::Arguments),
     Replay(replay::Arguments),
     Trade(trade::Arguments),
     Tune(tune::Arguments),
@@ -79,6 +81,7 @@ fn main() -> ExitCode {
         Command::Log(arguments) => log::main(&arguments),
         Command::ManPages(arguments) => man_pages::main(&arguments, Cli::command()),
         Command::Mass(arguments) => mass::main(&arguments),
+        Command::Modes(arguments) => modes::main(&arguments),
         Command::Replay(arguments) => replay::main(&arguments),
         Command::Trade(arguments) => trade::main(&arguments),
         Command::Tune(arguments) => tune::main(&arguments),

@@ -61,7 +61,7 @@ pub use load::{Axes, Load, LoadHistory, LoadRow};
 pub use mass::MassProperties;
 pub use path::{Oscillation, Path, PathRow, PathTable};
 pub use pong_geometry::{Mat3, Pose, Quat, Twist, Vec3, Wrench};
-pub use simulation::{Observer, Simulation};
+pub use simulation::{Linearised, Observer, Simulation};
 pub use spring::{Spring, SpringEnd};
 pub use stability::{group_mass, longest_stable_step};
 pub use statistics::{BodyStatistics, RunStatistics};

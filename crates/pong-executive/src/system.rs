@@ -195,7 +195,7 @@ impl System {
         spring.angle(&self.motion_of(&spring.first), &self.motion_of(&spring.second))
     }
 
-    fn motion_of(&self, end: &SpringEnd) -> (Pose, Twist) {
+    pub fn motion_of(&self, end: &SpringEnd) -> (Pose, Twist) {
         let ground = (Pose::identity(), Twist::zero());
         let index = end.body.map_or(GROUND, |body| body.index());
         *self.motions.get(index).unwrap_or(&ground)

@@ -371,7 +371,7 @@ fn a_scene_is_no_model_and_a_model_no_scene() {
         &err,
         &["drop.ron:1:1: ", "this is a scene, not a model; run it with `pong run`", "1 fault"],
     );
-    for command in ["run", "trade", "tune", "fmu"] {
+    for command in ["run", "trade", "tune", "fmu", "modes"] {
         let (code, _, err) = pong(&folder, &[command, "ball.ron"]);
         assert_eq!(code, 1, "{command}: {err}");
         assert_holds(&err, &["this is a model, not a scene; check it with `pong check`"]);

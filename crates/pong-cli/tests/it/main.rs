@@ -12,6 +12,7 @@ mod import;
 mod join;
 mod left_out;
 mod man_pages;
+mod modes;
 mod replay;
 mod solids;
 mod step_warnings;

@@ -93,6 +93,7 @@ fn a_lost_standard_error_changes_no_exit_code() {
         (&["decompose", "none.stl", "-o", "x.ron"], 1),
         (&["tune", "none"], 1),
         (&["trade", "none"], 1),
+        (&["modes", "none"], 1),
         (&["advise", "none.ron", "--mass", "1"], 1),
         (&["verify", "--only", "V999"], 2),
         (&["fly"], 2),

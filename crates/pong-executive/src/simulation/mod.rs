@@ -3,6 +3,7 @@
 mod checkpoint;
 mod divergence;
 mod exchange;
+mod linear;
 mod reference;
 mod setup;
 mod start;
@@ -16,6 +17,7 @@ use crate::integrate::{
 };
 use crate::state::FreeState;
 use crate::system::System;
+pub use linear::Linearised;
 use pong_engine::{FrictionPreload, PairId, World};
 use pong_geometry::Wrench;
 use reference::Reference;
