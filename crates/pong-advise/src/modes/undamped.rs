@@ -18,9 +18,9 @@ pub struct BodyShape {
     pub translation: Vec3,
     /// Rotation vector, rad, along the common axes.
     pub rotation: Vec3,
-    /// Share of the kinetic energy of the mode in the translation of this body, dimensionless.
+    /// Share of the kinetic energy of the mode in the translation of this body, no unit.
     pub translation_share: f64,
-    /// Share of the kinetic energy of the mode in the rotation of this body, dimensionless.
+    /// Share of the kinetic energy of the mode in the rotation of this body, no unit.
     pub rotation_share: f64,
 }
 
@@ -33,8 +33,8 @@ pub struct Mode {
     pub rate: f64,
     /// Frequency without damping, Hz; 0 unless the mode is an oscillation.
     pub frequency: f64,
-    /// Damping over critical damping, dimensionless, from the eigenvalues of the damped system; below 0 if the motion grows. `None`
-    /// unless the mode is an oscillation.
+    /// Damping over critical damping, no unit, from the eigenvalues of the damped system; below 0 if the motion
+    /// grows. `None` unless the mode is an oscillation.
     pub damping_ratio: Option<f64>,
     /// The two eigenvalues of the damped system that belong to this mode, 1/s. `None` unless the mode is an
     /// oscillation.

@@ -6,11 +6,8 @@ mod common;
 mod contact;
 mod exchange;
 mod free_flight;
-<<<<<<< HEAD
 mod long_frames;
-=======
 mod modes;
->>>>>>> modes
 mod moving_surfaces;
 mod resistance;
 mod scene_faults;
