@@ -22,7 +22,10 @@ fn a_resting_ball_has_its_vertical_mode() {
     assert_eq!(code, 0, "{err}");
     assert!(table.starts_with("rest, at rest from t = "), "{table}");
     assert!(table.contains("50.3292  0.0316228  `ball` moves along z (100 %)"), "{table}");
-    assert!(table.contains("ball/skin · ground/floor 100 %") && table.contains("rigid"), "{table}");
+    assert!(
+        table.contains("ball/ball/skin · ground/ground/floor 100 %") && table.contains("rigid"),
+        "{table}"
+    );
     assert_eq!(err, "");
     let (_, text, _) = pong(&folder, &["modes", "rest.ron", "--settle", "--json"]);
     let json: Value = serde_json::from_str(&text).unwrap();

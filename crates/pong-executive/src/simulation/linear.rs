@@ -126,9 +126,9 @@ impl Simulation {
                 linear.least_ratio = linear.least_ratio.min(ratio);
             }
             let name = |side: &pong_engine::ContactSide| {
-                let group = scene.interface_name(side.interface)?;
+                let object = scene.object_name(side.object)?;
                 Ok::<_, EngineError>(format!(
-                    "{group}/{}",
+                    "{object}/{}",
                     scene.primitive_path(side.interface, side.primitive)?
                 ))
             };

@@ -59,7 +59,7 @@ fn every_example_builds_and_runs() {
         scenes.extend(sections.map(|text| around(&with_bodies, &text, RUNGE_KUTTA)));
     }
     scenes.extend(find("field").map(|text| around(&with_bodies, "", text)));
-    assert_eq!(scenes.len(), 9, "3 of objects, loads, springs, alternatives, 3 integrators");
+    assert_eq!(scenes.len(), 10, "3 of objects, loads, springs, alternatives, 4 integrators");
     for text in &scenes {
         let mut built = build(text, &folder);
         built.simulation.run_for(2e-3).unwrap_or_else(|e| panic!("{e}\n{text}"));
