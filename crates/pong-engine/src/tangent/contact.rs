@@ -63,7 +63,7 @@ impl Moving<'_> {
         let tangent = normal_tangent(props, weight, found.depth, contact.rate)?;
         let pressed = padded(&moves.depth) * tangent.stiffness
             + rate * tangent.damping
-            + padded(&self.weight) * (contact.normal_force / found.weight);
+            + padded(&self.weight) * (contact.normal_force / found.weight.max(f64::MIN_POSITIVE));
         let mut force = normal * pressed + padded(&moves.normal) * contact.normal_force;
         if contact.normal_force > 0.0 {
             let mut slip_velocity = of_velocity + padded(&moves.normal) * contact.rate;
@@ -200,11 +200,11 @@ pub(super) fn rotation_slopes(rotation: &Vec3) -> Matrix3x6<f64> {
     const SMALL: f64 = 1e-2;
     let square = rotation.norm_squared();
     let angle = square.sqrt();
-    let factor = if angle < SMALL {
-        1.0 / 12.0 + square * (1.0 / 720.0 + square / 30240.0)
-    } else {
-        1.0 / square - (1.0 + libm::cos(angle)) / (2.0 * angle * libm::sin(angle))
-    };
+    // No divisor is zero, as a compiler may divide ahead of the branch.
+    let least = angle.max(SMALL);
+    let closed = 1.0 / (least * least) - (1.0 + libm::cos(least)) / (2.0 * least * libm::sin(least));
+    let series = 1.0 / 12.0 + square * (1.0 / 720.0 + square / 30240.0);
+    let factor = if angle < SMALL { series } else { closed };
     let cross = rotation.cross_matrix();
     let mut slopes = Matrix3x6::zeros();
     slopes.fixed_view_mut::<3, 3>(0, 3).copy_from(&(Mat3::identity() - cross * 0.5 + cross * cross * factor));

@@ -139,7 +139,7 @@ pub(super) fn plane_axes(normal: &Vec3) -> [Vec3; 2] {
 }
 
 fn inverse(number: f64) -> Option<f64> {
-    (number.abs() > 1e-12).then(|| 1.0 / number)
+    (number.abs() > 1e-12).then(|| 1.0 / number.abs().max(f64::MIN_POSITIVE).copysign(number))
 }
 
 fn well_inverted(matrix: &Matrix2<f64>) -> Option<Matrix2<f64>> {

@@ -57,7 +57,7 @@ impl Shape {
         if radius <= rounding {
             return Some(Self::CORNER);
         }
-        let away = arm / radius;
+        let away = arm / radius.max(f64::MIN_POSITIVE);
         let (along, lean) = (axis.cross(&away), outward.dot(&away));
         // Where the normal is along the axis, the whole rim touches.
         let is_on = (arm.norm() - radius).abs() <= rounding && along.dot(outward).abs() <= ROUNDING;
@@ -74,7 +74,7 @@ impl Shape {
         // The radius is the distance of the point from the axis along the normal.
         (square > ROUNDING && is_through).then(|| {
             let along = across.normalize().cross(outward);
-            Self::Straight { along, radius: arm.dot(&lean) / square }
+            Self::Straight { along, radius: arm.dot(&lean) / square.max(f64::MIN_POSITIVE) }
         })
     }
 }

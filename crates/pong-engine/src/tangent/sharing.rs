@@ -196,7 +196,7 @@ fn couple(ends: &mut [Moving<'_>], crossing: &mut Moving<'_>, moved: &[Slope; 2]
     crossing.weight = -parts[0].times(&parts[1]).by;
     for moving in ends {
         let factor = parts[1 - moving.contact.found.key.end as usize];
-        let alone = moving.contact.found.weight / factor.value;
+        let alone = moving.contact.found.weight / factor.value.max(f64::MIN_POSITIVE);
         moving.weight = moving.weight * factor.value + factor.by * alone;
     }
 }

@@ -86,8 +86,9 @@ impl Frustum {
     /// must not lie on the axis.
     pub fn wall_normal(&self, place: &Vec3) -> Vec3 {
         let arm = place - self.ends[0];
-        let away = (arm - self.axis * self.axis.dot(&arm)).normalize();
-        self.axis * self.wall[0] + away * self.wall[1]
+        let across = arm - self.axis * self.axis.dot(&arm);
+        // Clamped, for a point on the axis: the normal then has no direction from it.
+        self.axis * self.wall[0] + across * (self.wall[1] / across.norm().max(f64::MIN_POSITIVE))
     }
 
     /// Returns the disc at one end: a frustum of length zero.

@@ -82,7 +82,9 @@ impl<const N: usize> Simd for Derivatives<N> {
         if b.value.abs() < LEAST_DIVISOR {
             return Dual::constant(quotient);
         }
-        Dual::zip(quotient, &a, &b, |by_a, by_b| (by_a - quotient * by_b) / b.value)
+        // Clamped, as a compiler may divide ahead of the branch.
+        let divisor = b.value.abs().max(LEAST_DIVISOR).copysign(b.value);
+        Dual::zip(quotient, &a, &b, |by_a, by_b| (by_a - quotient * by_b) / divisor)
     }
     #[inline(always)]
     fn sqrt(self, values: Self::Eight) -> Self::Eight {
@@ -90,7 +92,7 @@ impl<const N: usize> Simd for Derivatives<N> {
         if root < LEAST_DIVISOR {
             return Dual::constant(root);
         }
-        Dual { value: root, slopes: values.slopes.map(|slope| 0.5 * slope / root) }
+        Dual { value: root, slopes: values.slopes.map(|slope| 0.5 * slope / root.max(LEAST_DIVISOR)) }
     }
     /// The derivatives are those of `values · 2ⁿ` for a real n: a kernel that rounds n subtracts it again.
     #[inline(always)]

@@ -46,6 +46,8 @@ class MomentumInertia:
         Number of touches.
     """
 
+    __module__ = "pong.types"
+
     body: str
     inertia: float
     interval: tuple[float, float]
