@@ -19,6 +19,7 @@ mod filters;
 mod first_frame;
 mod friction;
 mod invariance;
+mod incremental_potential;
 mod known_answers;
 mod ledger;
 mod limits;

@@ -3,6 +3,7 @@
 pub mod friction;
 pub mod memory;
 pub mod sides;
+pub mod potential;
 pub mod tangent;
 
 use crate::base::Base;
