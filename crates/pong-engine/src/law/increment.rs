@@ -29,7 +29,12 @@ struct Force {
 
 /// ∫F dx up to the depth at the end, with F the force of the normal law and δ' = (x − δ₀)/T; the ramp of a damping
 /// counts as 0. `None` for a host's law.
-pub(crate) fn normal_increment(props: &PairProps, depth: f64, start: f64, step: f64) -> Option<NormalIncrement> {
+pub(crate) fn normal_increment(
+    props: &PairProps,
+    depth: f64,
+    start: f64,
+    step: f64,
+) -> Option<NormalIncrement> {
     let power = |exponent: Exponent| exponent.value();
     let (exponent, damping, damping_exponent) = match &props.normal {
         NormalProps::Linear { damping, .. } => (1.0, *damping, 0.0),

@@ -158,7 +158,9 @@ impl<'a> AtContact<'a> {
 
     /// True at the end of the side of a round solid, where its outward normal is still that of the side.
     pub fn is_end_of_wall(&self) -> bool {
-        let (PrimitiveRef::Cylinder(frustum) | PrimitiveRef::Cone(frustum)) = self.element else { return false };
+        let (PrimitiveRef::Cylinder(frustum) | PrimitiveRef::Cone(frustum)) = self.element else {
+            return false;
+        };
         let is_on_wall = (self.outward.dot(&frustum.axis) - frustum.wall[0]).abs() < ROUNDING;
         is_on_wall && !is_between(&self.place, &frustum.ends)
     }

@@ -93,7 +93,9 @@ impl World {
         let why = match unknown.why {
             Missing::HostLaw => "has a law of the host's, which gives no derivatives",
             Missing::Solids => "is of two solids, whose derivatives are not known in closed form",
-            Missing::Resistance => "resists rolling or spinning, whose derivatives are not known in closed form here",
+            Missing::Resistance => {
+                "resists rolling or spinning, whose derivatives are not known in closed form here"
+            }
             Missing::Shapes => {
                 "has no unique derivative: both shapes are flat or parallel there, or A is a ray"
             }

@@ -38,7 +38,10 @@ fn a_point_on_a_floor_has_the_closed_form() {
         };
         assert!((found.wrenches[0].force.z - force).abs() < 1e-9 * K * start, "{end}: {found:?}");
         assert!((found.wrenches[1].force.z + force).abs() < 1e-9 * K * start);
-        assert!((found.energy - energy).abs() < 1e-12 * K * start * start + 1e-15, "{end}: {found:?} {energy}");
+        assert!(
+            (found.energy - energy).abs() < 1e-12 * K * start * start + 1e-15,
+            "{end}: {found:?} {energy}"
+        );
     }
 }
 
@@ -63,7 +66,9 @@ fn minimised(rig: &mut Rig, free: Vec3, (mass, step): (f64, f64)) -> Vec3 {
     for _ in 0..60 {
         let (energy, change) = at_end(end);
         let halved = (0..40).map(|halvings| change * 0.5_f64.powi(halvings));
-        let Some(lower) = halved.map(|change| end - change).find(|end| at_end(*end).0 < energy) else { break };
+        let Some(lower) = halved.map(|change| end - change).find(|end| at_end(*end).0 < energy) else {
+            break;
+        };
         end = lower;
     }
     end
@@ -76,7 +81,9 @@ fn a_block_slides_and_stops() {
     let [mu, gravity, mass, step] = [0.3, 9.81, 2.0, 0.02];
     let rough = surface(1e6, "normal: Linear(damping: 0.0), friction: Bristle(mu: 0.3, damping: 0.0)");
     let feet: String = [(-1, -1), (-1, 1), (1, -1), (1, 1)]
-        .map(|(x, y)| format!("Point(name: \"p{x}{y}\", position: (0.{x}, 0.{y}, 0.0)),").replace("0.-", "-0."))
+        .map(|(x, y)| {
+            format!("Point(name: \"p{x}{y}\", position: (0.{x}, 0.{y}, 0.0)),").replace("0.-", "-0.")
+        })
         .concat();
     let mut rig = Rig::new(&model("block", &rough, &feet), &model("floor", &rough, FLOOR));
     let rest = mass * gravity / (4.0 * 0.5e6);
@@ -103,7 +110,10 @@ fn a_block_slides_and_stops() {
 /// Curved bodies with history: the wrench is minus the slope of the energy, the curvature is symmetric and not negative.
 #[test]
 fn the_wrench_is_the_slope_of_the_energy() {
-    let rough = surface(K, "normal: HuntCrossley(dissipation: 0.3, exponent: 1.5), friction: Bristle(mu: 0.4, damping: 40.0)");
+    let rough = surface(
+        K,
+        "normal: HuntCrossley(dissipation: 0.3, exponent: 1.5), friction: Bristle(mu: 0.4, damping: 40.0)",
+    );
     let capsule = "Capsule(name: \"c\", ends: ((-0.3,0.02,0.0), (0.3,0.0,0.05)), radius: 0.1)";
     let hill = "Sphere(name: \"h\", center: (0,0,-2), radius: 2.0)";
     let step = 5e-3;
@@ -135,7 +145,8 @@ fn the_wrench_is_the_slope_of_the_energy() {
             };
             let [ahead, behind] = [1.0, -1.0].map(|sign| potential(&mut rig, beside(sign), step).energy);
             let wrench = &here.wrenches[0];
-            let part = if coordinate < 3 { wrench.force[coordinate] } else { wrench.moment[coordinate - 3] / arm };
+            let part =
+                if coordinate < 3 { wrench.force[coordinate] } else { wrench.moment[coordinate - 3] / arm };
             off = off.max((part + (ahead - behind) / (2.0 * width)).abs());
             scale = scale.max(part.abs());
         }
@@ -152,8 +163,10 @@ fn the_wrench_is_the_slope_of_the_energy() {
 #[test]
 fn a_step_without_length_is_refused() {
     let smooth = surface(K, "friction: None");
-    let mut rig =
-        Rig::new(&model("tip", &smooth, "Point(name: \"p\", position: (0,0,0))"), &model("floor", &smooth, FLOOR));
+    let mut rig = Rig::new(
+        &model("tip", &smooth, "Point(name: \"p\", position: (0,0,0))"),
+        &model("floor", &smooth, FLOOR),
+    );
     rig.place_a(Vec3::new(0.0, 0.0, -1e-3), Quat::identity());
     assert!(rig.world.incremental_potentials(1e-3).is_err(), "before a frame");
     rig.world.evaluate().unwrap();

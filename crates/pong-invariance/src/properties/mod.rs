@@ -2,8 +2,8 @@
 
 pub mod friction;
 pub mod memory;
-pub mod sides;
 pub mod potential;
+pub mod sides;
 pub mod tangent;
 
 use crate::base::Base;
