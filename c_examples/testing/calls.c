@@ -4,6 +4,7 @@
 #include "crowd.h"
 #include "joined_calls.h"
 #include "pair_calls.h"
+#include "slope_calls.h"
 #include <math.h>
 #include <pthread.h>
 #include <stdlib.h>
@@ -101,6 +102,7 @@ static void tangents(scene *s)
         TEST(fabs(tangent.stiffness[i][j][at] - differences.stiffness[i][j][at]) < 1.0);
         TEST(fabs(tangent.damping[i][j][at] - differences.damping[i][j][at]) < 1e-3);
     }
+    slope_calls(s);
     OK(pong_commit(s->world));
     OK(pong_get_wrench(s->world, s->interfaces[0], PONG_REFERENCE_FRAME_COMMON, &after));
     TEST(memcmp(&before.force[2], &after.force[2], sizeof after.force[2]) == 0);

@@ -101,7 +101,7 @@ impl Force {
 pub(crate) struct BristleIncrement {
     /// Stiffness K of a contact that has the whole bristle, N/m.
     pub stiffness: f64,
-    /// Part of the bristle of the last commit in p.
+    /// Part of the bristle of the last commit in p, no unit.
     pub carried: f64,
     /// True if K follows from the share of the contact; false if from its load.
     pub is_shared: bool,

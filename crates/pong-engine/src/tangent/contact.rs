@@ -153,7 +153,7 @@ impl Moving<'_> {
     /// Slip since the last commit, m, and its derivatives in the contact plane.
     fn slip(&self, context: &PairContext<'_>, point: &Matrix3x6<f64>) -> (Vec3, Matrix3x6<f64>) {
         let travel = self.travel(context, point);
-        (travel.across, travel.across_slopes)
+        (travel.across_b, travel.across_slopes)
     }
 
     /// Motion of the contact point of A relative to B since the last commit.
@@ -191,7 +191,7 @@ impl Moving<'_> {
             across_slopes = across_slopes * part + across * of_part;
             across *= part;
         }
-        Travel { approach, approach_slopes, across, across_slopes }
+        Travel { approach, approach_slopes, across_b: across, across_slopes }
     }
 }
 
@@ -201,7 +201,7 @@ pub(super) struct Travel {
     pub approach: f64,
     pub approach_slopes: RowVector6<f64>,
     /// Slip in the contact plane, m; of a contact that begins, since its first touch.
-    pub across: Vec3,
+    pub across_b: Vec3,
     pub across_slopes: Matrix3x6<f64>,
 }
 
@@ -211,7 +211,7 @@ impl Travel {
         Self {
             approach: 0.0,
             approach_slopes: RowVector6::zeros(),
-            across: Vec3::zeros(),
+            across_b: Vec3::zeros(),
             across_slopes: Matrix3x6::zeros(),
         }
     }

@@ -56,7 +56,7 @@ impl Increment {
         self.slope += (moving.moves.depth * normal.force + of_start * normal.by_start) * weight
             + of_weight * normal.energy;
         self.curvature += moving.moves.depth.transpose() * moving.moves.depth * (weight * normal.stiffness);
-        self.add_friction(moving, &props.friction, (&travel.across, &travel.across_slopes), step)
+        self.add_friction(moving, &props.friction, (&travel.across_b, &travel.across_slopes), step)
     }
 
     fn add_friction(

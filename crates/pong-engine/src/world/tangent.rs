@@ -82,7 +82,8 @@ impl World {
         if self.runtime.evaluated {
             return Ok(());
         }
-        let (call, cure) = ("get a tangent", "evaluate a frame, and ask before it is committed");
+        let (call, cure) =
+            ("get tangents or other derivatives", "evaluate a frame, and ask before it is committed");
         Err(EngineError::WrongPhase { call, cure })
     }
 
