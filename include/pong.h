@@ -102,7 +102,7 @@ const char *pong_last_message(void);
 /* ---- Version --------------------------------------------------------------------------------------------- */
 
 /// Hash of every layout in this header; see PONG_CHECK_ABI().
-#define PONG_LAYOUT_HASH 0x68719e658ceadac9ULL
+#define PONG_LAYOUT_HASH 0xb674c13679bb7705ULL
 
 /// Checks that this header fits the library: call it first.
 #define PONG_CHECK_ABI() pong_check_abi(PONG_ABI_VERSION, PONG_LAYOUT_HASH)
@@ -812,7 +812,8 @@ pong_status pong_get_tangents(const struct pong_world *world,
 /// result. The states and the frame are those of before. Allocates.
 ///
 /// PONG_STATUS_WRONG_PHASE: call it between pong_evaluate() and the commit. Otherwise errors as for pong_evaluate() at
-/// the states in between; after PONG_STATUS_LAW_FAILED the frame does not count. PONG_STATUS_BUFFER_TOO_SMALL if not all fit. With capacity 0 `tangents` may be NULL.
+/// the states in between; after PONG_STATUS_LAW_FAILED the frame does not count. PONG_STATUS_BUFFER_TOO_SMALL if not all
+/// fit. With capacity 0 `tangents` may be NULL.
 pong_status pong_get_tangents_by_differences(struct pong_world *world,
                                              struct pong_tangent *tangents,
                                              size_t capacity,

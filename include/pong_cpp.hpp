@@ -61,6 +61,8 @@ using Report = pong_report;
 using Tally = pong_tally;
 using Tangent = pong_tangent;
 using ContactTangent = pong_contact_tangent;
+using Potential = pong_potential;
+using SurfaceSlope = pong_surface_slope;
 using Ledger = pong_ledger;
 using EnergyAccount = pong_energy_account;
 using PairEnergyAccount = pong_pair_energy_account;
@@ -310,6 +312,26 @@ public:
         std::vector<Tangent> all(contact_count());
         all.resize(result<std::size_t>([&](std::size_t* count) {
             return pong_get_tangents_by_differences(get(), all.data(), all.size(), count);
+        }));
+        return all;
+    }
+
+    /// Energies of a step of length `step` as functions of its end: pong_get_incremental_potentials(). Between evaluate() and
+    /// commit(). Allocates.
+    std::vector<Potential> incremental_potentials(double step) const {
+        std::vector<Potential> all(contact_count());
+        all.resize(result<std::size_t>([&](std::size_t* count) {
+            return pong_get_incremental_potentials(get(), step, all.data(), all.size(), count);
+        }));
+        return all;
+    }
+    /// Derivatives of the wrenches by a number of a surface: pong_get_surface_slopes(). Between evaluate() and commit().
+    /// Allocates.
+    std::vector<SurfaceSlope> surface_slopes(ModelId model, const std::string& surface, const std::string& number) {
+        std::vector<SurfaceSlope> all(contact_count());
+        all.resize(result<std::size_t>([&](std::size_t* count) {
+            return pong_get_surface_slopes(
+                get(), model, surface.c_str(), number.c_str(), all.data(), all.size(), count);
         }));
         return all;
     }

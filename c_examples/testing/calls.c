@@ -4,6 +4,7 @@
 #include "crowd.h"
 #include "joined_calls.h"
 #include "pair_calls.h"
+#include "slope_calls.h"
 #include <math.h>
 #include <pthread.h>
 #include <stdlib.h>
@@ -78,32 +79,6 @@ static void contacts(scene *s)
     }
     OK(pong_get_state(s->world, s->interfaces[0], &state));
     TEST(memcmp(&state, &s->states[0], sizeof state) == 0);
-}
-
-/* A ball of 10 kN/m on a plane: up against up on both groups, and the same by differences. */
-static void tangents(scene *s)
-{
-    pong_tangent tangent, differences;
-    pong_wrench before = slide_to(s, 0.0), after;
-    size_t count = 7, k;
-    REFUSED(pong_get_tangents(s->world, &tangent, 1, &count), WRONG_PHASE, "before it is committed");
-    REFUSED(pong_get_tangents_by_differences(s->world, &tangent, 1, &count), WRONG_PHASE, "before it is committed");
-    OK(pong_evaluate(s->world));
-    OK(pong_get_tangents(s->world, &tangent, 1, &count));
-    TEST(count == 1 && tangent.interfaces[0].bits == s->interfaces[0].bits);
-    TEST(tangent.interfaces[1].bits == s->interfaces[2].bits);
-    for (k = 0; k < 4; k += 1) {
-        TEST(fabs(tangent.stiffness[k / 2][k % 2][6 * 2 + 2] - (k / 2 == k % 2 ? 1e4 : -1e4)) < 1e-6);
-    }
-    OK(pong_get_tangents_by_differences(s->world, &differences, 1, &count));
-    for (k = 0; k < 144; k += 1) {
-        size_t i = k / 72, j = k / 36 % 2, at = k % 36;
-        TEST(fabs(tangent.stiffness[i][j][at] - differences.stiffness[i][j][at]) < 1.0);
-        TEST(fabs(tangent.damping[i][j][at] - differences.damping[i][j][at]) < 1e-3);
-    }
-    OK(pong_commit(s->world));
-    OK(pong_get_wrench(s->world, s->interfaces[0], PONG_REFERENCE_FRAME_COMMON, &after));
-    TEST(memcmp(&before.force[2], &after.force[2], sizeof after.force[2]) == 0);
 }
 
 /* A ground that is left where it is and says that it moves, as a belt would. */

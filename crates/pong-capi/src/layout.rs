@@ -12,6 +12,7 @@ use crate::log::{pong_log_options, pong_log_report};
 use crate::pair_monitor::{pong_contact_change, pong_pair_peaks};
 use crate::report::{pong_ledger, pong_report};
 use crate::seal::pong_seal_report;
+use crate::slopes::{pong_potential, pong_surface_slope};
 use crate::states::pong_state;
 use crate::status::pong_status;
 use crate::step_plan::{pong_joints, pong_mass, pong_step_check, pong_step_plan};
@@ -88,6 +89,8 @@ layouts! {
         friction_force, force, slip_velocity, stored,
     }
     pong_tangent { interfaces, stiffness, damping }
+    pong_potential { interfaces, energy, wrenches, stiffness }
+    pong_surface_slope { interfaces, wrenches }
     pong_contact_tangent { normal_stiffness, normal_damping, tangential_stiffness, tangential_damping }
     pong_contact_change { pair, interfaces, begins, reserved }
     pong_pair_peaks {

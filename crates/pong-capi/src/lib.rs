@@ -9,7 +9,7 @@
 //! | Status and messages; Version | `status.rs`, `message.rs`; `abi.rs`, `version.rs` |
 //! | Set-up | `handle.rs`, `coupling.rs`, `config.rs`, `world.rs`, `ids.rs`, `models.rs`, `objects.rs`, `pairs.rs`, `interfaces.rs`, `primitives.rs`, `step_plan.rs`, `seal.rs` |
 //! | Frames | `states.rs`, `frames.rs` |
-//! | Results | `wrenches.rs`, `contacts.rs`, `tangents.rs`, `distance.rs`, `pair_monitor.rs` |
+//! | Results | `wrenches.rs`, `contacts.rs`, `tangents.rs`, `slopes.rs`, `distance.rs`, `pair_monitor.rs` |
 //! | Contact state; Changes between frames; Further worlds | `contact_state.rs`; `surfaces.rs`; `clone.rs`, `continuation.rs` |
 //! | Response logs; Own force laws; User data | `log.rs`; `law_types.rs`, `laws.rs`; `user_data.rs` |
 //! | Workers; Diagnostics | `worker.rs`, `workers.rs`; `report.rs`, `tally.rs`, `accounts.rs` |
@@ -66,6 +66,7 @@ mod pointers;
 pub mod primitives;
 pub mod report;
 pub mod seal;
+pub mod slopes;
 pub mod states;
 pub mod status;
 pub mod step_plan;

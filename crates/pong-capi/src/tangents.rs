@@ -59,7 +59,7 @@ pub unsafe extern "C" fn pong_get_tangents(
     count: *mut usize,
 ) -> pong_status {
     with_world(world, |inner| {
-        let out = Destination::new(tangents, capacity, count)?;
+        let out = Destination::new((tangents, "tangents"), capacity, count)?;
         inner.law_faults.check()?;
         let found = inner.phase.frames("get tangents")?.tangents()?;
         out.fill(&found)
@@ -72,7 +72,8 @@ pub unsafe extern "C" fn pong_get_tangents(
 /// result. The states and the frame are those of before. Allocates.
 ///
 /// PONG_STATUS_WRONG_PHASE: call it between pong_evaluate() and the commit. Otherwise errors as for pong_evaluate() at
-/// the states in between; after PONG_STATUS_LAW_FAILED the frame does not count. PONG_STATUS_BUFFER_TOO_SMALL if not all fit. With capacity 0 `tangents` may be NULL.
+/// the states in between; after PONG_STATUS_LAW_FAILED the frame does not count. PONG_STATUS_BUFFER_TOO_SMALL if not all
+/// fit. With capacity 0 `tangents` may be NULL.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_get_tangents_by_differences(
     world: *mut pong_world,
@@ -81,7 +82,7 @@ pub unsafe extern "C" fn pong_get_tangents_by_differences(
     count: *mut usize,
 ) -> pong_status {
     with_world(world, |inner| {
-        let out = Destination::new(tangents, capacity, count)?;
+        let out = Destination::new((tangents, "tangents"), capacity, count)?;
         out.fill(&inner.tangents_by_differences()?)
     })
 }
@@ -110,29 +111,35 @@ pub unsafe extern "C" fn pong_get_contact_tangents(
     })
 }
 
-/// Array and count of a caller who gets tangents.
-struct Destination {
-    tangents: OutArray<pong_tangent>,
+/// Array and count of a caller who gets a list.
+pub(crate) struct Destination<T> {
+    items: OutArray<T>,
+    name: &'static str,
     count: Out<usize>,
 }
 
-impl Destination {
+impl<T> Destination<T> {
     /// # Safety
     /// That of all entries.
-    unsafe fn new(tangents: *mut pong_tangent, capacity: usize, count: *mut usize) -> Outcome<Self> {
-        apart(("tangents", tangents, capacity), ("count", count, 1))?;
-        Ok(Self {
-            tangents: OutArray::new(tangents, capacity, "tangents")?,
-            count: Out::new(count, "count")?,
-        })
+    pub unsafe fn new(
+        (items, name): (*mut T, &'static str),
+        capacity: usize,
+        count: *mut usize,
+    ) -> Outcome<Self> {
+        apart((name, items, capacity), ("count", count, 1))?;
+        Ok(Self { items: OutArray::new(items, capacity, name)?, name, count: Out::new(count, "count")? })
     }
 
-    fn fill(mut self, found: &[PairTangent]) -> Outcome {
+    /// Writes what fits.
+    pub fn fill<'s, S: 's>(mut self, found: &'s [S]) -> Outcome
+    where
+        T: From<&'s S>,
+    {
         self.count.set(found.len());
-        for (index, tangent) in found.iter().take(self.tangents.len()).enumerate() {
-            self.tangents.set(index, tangent.into());
+        for (index, item) in found.iter().take(self.items.len()).enumerate() {
+            self.items.set(index, item.into());
         }
-        too_small("tangents", self.tangents.len(), found.len())
+        too_small(self.name, self.items.len(), found.len())
     }
 }
 
@@ -158,7 +165,7 @@ impl From<&PairTangent> for pong_tangent {
     }
 }
 
-fn by_rows(matrix: &TangentMatrix) -> [f64; 36] {
+pub(crate) fn by_rows(matrix: &TangentMatrix) -> [f64; 36] {
     std::array::from_fn(|index| matrix[(index / 6, index % 6)])
 }
 

@@ -69,5 +69,5 @@ pub use report::{
 pub use scene::{Config, Scene, State, SurfaceMotion, WorkerSettings};
 pub use seal::{MetIn, SealReport, SetupNote, SetupWarning};
 pub use state::StateError;
-pub use tangent::{PairTangent, TangentMatrix};
-pub use world::{Continuation, GroupDistance, NearestPrimitive, World};
+pub use tangent::{PairPotential, PairTangent, TangentMatrix};
+pub use world::{Continuation, GroupDistance, NearestPrimitive, SurfaceSlope, World};

@@ -3,7 +3,7 @@
 use crate::base::Base;
 use crate::judge::{Verdict, compare};
 use crate::make;
-use crate::properties::{friction, memory, sides, tangent};
+use crate::properties::{friction, memory, potential, sides, tangent};
 use crate::random::Random;
 use crate::scene::Scene;
 use crate::twin::{Twin, manner, place, shape};
@@ -128,6 +128,13 @@ pub const INVARIANCES: &[Invariance] = &[
         16,
         None,
         tangent::of_differences,
+    ),
+    property(
+        "potential",
+        "wrenches of an incremental potential are the slope of its energy, to 1e-6",
+        16,
+        None,
+        potential::of_differences,
     ),
     property(
         "beside",

@@ -50,6 +50,7 @@ mod solid_box;
 mod solid_tree;
 mod solids;
 pub mod surface;
+mod surface_numbers;
 pub mod t_junctions;
 mod tree;
 mod triangle_topology;

@@ -1,7 +1,11 @@
-//! Tangents of a frame.
+//! Tangents and other derivatives of a frame.
 
 use super::session::{Session, Sure};
 use pong::contacts::pong_contact;
+use pong::ids::pong_model_id;
+use pong::slopes::{
+    pong_get_incremental_potentials, pong_get_surface_slopes, pong_potential, pong_surface_slope,
+};
 use pong::tangents::{
     pong_contact_tangent, pong_get_contact_tangents, pong_get_tangents, pong_get_tangents_by_differences,
     pong_tangent,
@@ -36,9 +40,27 @@ impl Session<'_> {
         }) {
             assert!(found <= capacity, "{found} pairs of groups touch in {capacity} contacts");
         }
+        let mut potentials = Vec::<pong_potential>::with_capacity(capacity);
+        self.call("incremental potentials", sure, || unsafe {
+            pong_get_incremental_potentials(world, 0.01, potentials.as_mut_ptr(), capacity, &mut found)
+        });
         if capacity <= DIFFERENCES_MAX {
+            self.surface_slopes(world, sure, capacity);
             self.call("tangents by differences", sure, || unsafe {
                 pong_get_tangents_by_differences(world, tangents.as_mut_ptr(), capacity, &mut found)
+            });
+        }
+    }
+
+    /// Gets the derivatives by a number of a surface that the models of the harness have, and of one that they have not.
+    fn surface_slopes(&mut self, world: *mut pong_world, sure: Sure, capacity: usize) {
+        let mut slopes = Vec::<pong_surface_slope>::with_capacity(capacity);
+        let mut found = 0;
+        let model = pong_model_id { bits: 1 << 32 | 1 };
+        for number in [c"stiffness", c"friction.mu", c"nothing"] {
+            self.call("surface slopes", sure, || unsafe {
+                let (surface, slopes) = (c"s".as_ptr(), slopes.as_mut_ptr());
+                pong_get_surface_slopes(world, model, surface, number.as_ptr(), slopes, capacity, &mut found)
             });
         }
     }

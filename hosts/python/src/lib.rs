@@ -12,7 +12,7 @@
 //! | `tangents.rs` | derivatives of wrenches and of the forces of contacts |
 //! | `pair_monitor.rs` | begin and end of contact, peaks over several frames |
 //! | `setup.rs`, `builder.rs` | state and calls of a set-up |
-//! | `sealed.rs`, `world.rs` | state and calls of a sealed world: frames |
+//! | `sealed.rs`, `world.rs`, `world_slopes.rs` | state and calls of a sealed world: frames, derivatives of wrenches |
 //! | `frame_report.rs`, `recording.rs` | reports of frames and logs of them |
 //! | `scene.rs`, `simulation.rs`, `run.rs` | scenes in the built-in executive |
 //! | `log.rs` | check of a log before NumPy maps its tables |
@@ -49,6 +49,7 @@ mod trade;
 mod tune;
 mod verify;
 mod world;
+mod world_slopes;
 mod written;
 
 use pyo3::PyClass;
@@ -78,6 +79,8 @@ fn _pong(module: &Bound<'_, PyModule>) -> PyResult<()> {
     add_class::<pair_monitor::ContactChange>(module)?;
     add_class::<pair_monitor::PairPeaks>(module)?;
     add_class::<tangents::Tangent>(module)?;
+    add_class::<tangents::Potential>(module)?;
+    add_class::<tangents::SurfaceSlope>(module)?;
     add_class::<scene::Scene>(module)?;
     add_class::<simulation::Simulation>(module)?;
     add_class::<run::Run>(module)?;

@@ -4,6 +4,7 @@ mod combine;
 mod elastic;
 pub(crate) mod friction;
 mod hunt_crossley;
+mod increment;
 mod linear;
 mod normal;
 mod power_law;
@@ -14,6 +15,7 @@ use power_law::Damper;
 
 pub use combine::combine;
 pub(crate) use combine::friction_name;
+pub(crate) use increment::{BristleIncrement, bristle_increment, normal_increment};
 pub use normal::{NormalForce, NormalInput};
 pub use props::{CombineError, FrictionProps, NormalProps, PairProps};
 

@@ -54,7 +54,7 @@ impl Moving<'_> {
         let found = &contact.found;
         let props = context.props(found);
         let normal = found.normal_b;
-        let point = moves.deepest + (moves.normal * found.depth + normal * moves.depth) * props.share_a;
+        let point = self.point(props.share_a);
         let velocity = context.motion.velocity_at(&contact.point_b);
         let of_velocity = self.velocity_slopes(context, &point);
         // rate = −n·v
@@ -74,6 +74,18 @@ impl Moving<'_> {
             force += self.friction_slopes(context, &point, (&pressed, &slip_velocity))?;
         }
         Some(ContactSlopes { force, point, pressed })
+    }
+
+    /// Derivatives of the contact point.
+    pub fn point(&self, share_a: f64) -> Matrix3x6<f64> {
+        let found = &self.contact.found;
+        let of_depth = self.moves.normal * found.depth + found.normal_b * self.moves.depth;
+        self.moves.deepest + of_depth * share_a
+    }
+
+    /// Normal force at the last commit, N: zero for a contact that begins.
+    pub fn load_before(&self) -> f64 {
+        self.record.map_or(0.0, |record| record.force_b.dot(&record.normal_b).max(0.0))
     }
 
     /// The contact point and its normal, with their derivatives.
@@ -132,7 +144,7 @@ impl Moving<'_> {
     }
 
     /// Bristle of the last commit in the present contact plane, m, and its derivatives with the normal.
-    fn carried(&self, normal: &Vec3, turned: &Matrix3x6<f64>) -> (Vec3, Matrix3x6<f64>) {
+    pub fn carried(&self, normal: &Vec3, turned: &Matrix3x6<f64>) -> (Vec3, Matrix3x6<f64>) {
         let Some(record) = self.record else { return (Vec3::zeros(), Matrix3x6::zeros()) };
         let carried = carry_by_smallest_rotation(&record.bristle_b, &record.normal_b, normal);
         (carried, carried_slopes(record, normal, turned))
@@ -140,8 +152,13 @@ impl Moving<'_> {
 
     /// Slip since the last commit, m, and its derivatives in the contact plane.
     fn slip(&self, context: &PairContext<'_>, point: &Matrix3x6<f64>) -> (Vec3, Matrix3x6<f64>) {
-        let nothing = (Vec3::zeros(), Matrix3x6::zeros());
-        let Some(since) = &context.motion.since_commit else { return nothing };
+        let travel = self.travel(context, point);
+        (travel.across_b, travel.across_slopes)
+    }
+
+    /// Motion of the contact point of A relative to B since the last commit.
+    pub fn travel(&self, context: &PairContext<'_>, point: &Matrix3x6<f64>) -> Travel {
+        let Some(since) = &context.motion.since_commit else { return Travel::none() };
         let (contact, moves) = (self.contact, &self.moves);
         let found = &contact.found;
         let element = context.body_a.element(self.kind_a, found.element_a);
@@ -158,22 +175,45 @@ impl Moving<'_> {
         let of_displaced = of_now - lever.cross_matrix() * of_rotation + rotation.cross_matrix() * of_lever;
         let normal = found.normal_b;
         let approach = -normal.dot(&displaced);
-        let of_approach = -(displaced.transpose() * moves.normal) - normal.transpose() * of_displaced;
+        let approach_slopes = -(displaced.transpose() * moves.normal) - normal.transpose() * of_displaced;
         let mut across = displaced + normal * approach;
-        let mut of_across = of_displaced + moves.normal * approach + normal * of_approach;
+        let mut across_slopes = of_displaced + moves.normal * approach + normal * approach_slopes;
         if let Some(surfaces) = context.surfaces.motions() {
             let earlier = self.record.map(|record| (record.point_b, record.normal_b));
             let motions = (context.motion, since);
             across += surfaces.travel(motions, earlier, &contact.point_b, &normal);
-            of_across += surfaces.travel_slopes(motions, earlier, &self.place(point));
+            across_slopes += surfaces.travel_slopes(motions, earlier, &self.place(point));
         }
-        if self.record.is_some() || approach <= found.depth {
-            return (across, of_across);
+        if self.record.is_none() && approach > found.depth {
+            // Only the part after the first touch counts.
+            let part = found.depth / approach;
+            let of_part = (moves.depth - approach_slopes * part) / approach;
+            across_slopes = across_slopes * part + across * of_part;
+            across *= part;
         }
-        // Only the part after the first touch counts.
-        let part = found.depth / approach;
-        let of_part = (moves.depth - of_approach * part) / approach;
-        (across * part, of_across * part + across * of_part)
+        Travel { approach, approach_slopes, across_b: across, across_slopes }
+    }
+}
+
+/// Motion of a contact since the last commit, and its derivatives with respect to (u, φ).
+pub(super) struct Travel {
+    /// Depth gained, m.
+    pub approach: f64,
+    pub approach_slopes: RowVector6<f64>,
+    /// Slip in the contact plane, m; of a contact that begins, since its first touch.
+    pub across_b: Vec3,
+    pub across_slopes: Matrix3x6<f64>,
+}
+
+impl Travel {
+    /// No motion: the pair has no committed pose.
+    fn none() -> Self {
+        Self {
+            approach: 0.0,
+            approach_slopes: RowVector6::zeros(),
+            across_b: Vec3::zeros(),
+            across_slopes: Matrix3x6::zeros(),
+        }
     }
 }
 

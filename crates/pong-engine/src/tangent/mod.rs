@@ -8,18 +8,21 @@
 //! | `sharing.rs` | derivatives of the weights of contacts that share a spring |
 //! | `friction.rs`, `contact.rs` | derivatives of the force of one contact |
 //! | `resistance.rs` | derivatives of the couple that resists rolling and spinning |
+//! | `potential.rs` | incremental potential of a step |
 //! | `blocks.rs` | sum over the contacts of two groups; common axes |
 
 mod blocks;
 mod contact;
 mod friction;
 mod moves;
+mod potential;
 mod ray;
 mod resistance;
 mod shape;
 mod sharing;
 
 pub use blocks::{PairTangent, TangentMatrix};
+pub use potential::PairPotential;
 
 use crate::frame::forces::contact_ref::ContactRef;
 use crate::frame::input::relative::Motions;
@@ -35,6 +38,7 @@ use moves::{Moves, Touch};
 use nalgebra::RowVector6;
 use pong_geometry::extension::PrimitiveRef;
 use pong_geometry::primitive::{PrimitiveKind, Ray};
+use potential::Increment;
 use ray::RayHit;
 use shape::{AtContact, Shape};
 
@@ -45,7 +49,7 @@ pub(crate) enum Missing {
     HostLaw,
     /// Two solids.
     Solids,
-    /// Rolling or spinning resistance of a surface that moves along itself.
+    /// Rolling or spinning resistance: of a surface that moves along itself, and in a potential.
     Resistance,
     /// Shapes whose contact has no unique derivative.
     Shapes,
@@ -59,45 +63,80 @@ pub(crate) struct Unknown {
     pub why: Missing,
 }
 
-/// Tangents of all pairs of groups that touch in a frame, each with the index of the pair. `input` is that of the
-/// frame.
-pub(crate) fn of_frame(
-    given: &EvaluationInput<'_>,
-    motions: &Motions<'_>,
-    input: &WorkerInput,
-    results: &FrameResults<'_>,
-) -> Vec<(u32, Result<PairTangent, Unknown>)> {
+/// A frame and its input.
+#[derive(Clone, Copy)]
+pub(crate) struct Given<'a> {
+    pub given: &'a EvaluationInput<'a>,
+    pub motions: &'a Motions<'a>,
+    pub input: &'a WorkerInput,
+    pub results: &'a FrameResults<'a>,
+}
+
+/// Tangents of all pairs of groups that touch in a frame, each with the index of the pair.
+pub(crate) fn of_frame(frame: &Given<'_>) -> Vec<(u32, Result<PairTangent, Unknown>)> {
     let mut tangents = Vec::new();
-    let pair_of = |reference: &ContactRef| reference.direction().group_pair;
-    for refs in results.contacts.order.chunk_by(|a, b| pair_of(a) == pair_of(b)) {
-        let group_pair = pair_of(&refs[0]);
-        let tangent = of_pair(given, motions, input, results, refs);
-        if tangent.as_ref().is_ok_and(|tangent| !tangent.touches) {
-            continue;
+    for refs in frame.pairs() {
+        let mut tangent = PairTangent::of_groups(frame.given.scene.stamp, frame.bodies(refs));
+        let known = frame.each_direction(refs, |side, refs| {
+            tangent.add(&side.slopes(refs)?, side.context, frame.motions, frame.bodies_of(side));
+            Ok(())
+        });
+        if known.is_err() || tangent.touches {
+            tangents.push((refs[0].direction().group_pair, known.map(|()| tangent)));
         }
-        tangents.push((group_pair, tangent));
     }
     tangents
 }
 
-/// Tangent of one pair of groups, from the references to its contacts.
-fn of_pair(
-    given: &EvaluationInput<'_>,
-    motions: &Motions<'_>,
-    input: &WorkerInput,
-    results: &FrameResults<'_>,
-    refs: &[ContactRef],
-) -> Result<PairTangent, Unknown> {
-    let bodies = given.sealed.group_pairs[refs[0].direction().group_pair as usize].sides();
-    let mut tangent = PairTangent::of_groups(given.scene.stamp, bodies);
-    for refs in refs.chunk_by(|a, b| a.direction() == b.direction()) {
-        let direction = refs[0].direction();
-        let motion = motions.known(input, direction);
-        let context = PairContext::new(&given.round(input), direction, &motion);
-        let slopes = Frame { context: &context, results, direction }.slopes(refs)?;
-        tangent.add(&slopes, &context, motions, given.sealed.bodies_of(direction));
+/// Incremental potentials of a step of length `step`, s, of all pairs of groups that touch in a frame.
+pub(crate) fn potentials_of_frame(frame: &Given<'_>, step: f64) -> Result<Vec<PairPotential>, Unknown> {
+    let mut potentials = Vec::new();
+    for refs in frame.pairs() {
+        let mut potential = PairPotential::of_groups(frame.given.scene.stamp, frame.bodies(refs));
+        let mut touches = false;
+        frame.each_direction(refs, |side, refs| {
+            if let Some(increment) = side.increment(refs, step)? {
+                potential.add(&increment, frame.motions, frame.bodies_of(side));
+                touches = true;
+            }
+            Ok(())
+        })?;
+        if touches {
+            potentials.push(potential);
+        }
     }
-    Ok(tangent)
+    Ok(potentials)
+}
+
+impl<'a> Given<'a> {
+    /// References to the contacts of each pair of groups.
+    fn pairs(&self) -> impl Iterator<Item = &'a [ContactRef]> {
+        let pair_of = |reference: &ContactRef| reference.direction().group_pair;
+        self.results.contacts.order.chunk_by(move |a, b| pair_of(a) == pair_of(b))
+    }
+
+    fn bodies(&self, refs: &[ContactRef]) -> [usize; 2] {
+        self.given.sealed.group_pairs[refs[0].direction().group_pair as usize].sides()
+    }
+
+    /// Bodies A and B of a direction.
+    fn bodies_of(&self, side: &Frame<'_>) -> (usize, usize) {
+        self.given.sealed.bodies_of(side.direction)
+    }
+
+    /// Calls `visit` for each direction of a pair of groups, with the references to its contacts.
+    fn each_direction(
+        &self,
+        refs: &[ContactRef],
+        mut visit: impl FnMut(&Frame<'_>, &[ContactRef]) -> Result<(), Unknown>,
+    ) -> Result<(), Unknown> {
+        refs.chunk_by(|a, b| a.direction() == b.direction()).try_for_each(|refs| {
+            let direction = refs[0].direction();
+            let motion = self.motions.known(self.input, direction);
+            let context = PairContext::new(&self.given.round(self.input), direction, &motion);
+            visit(&Frame { context: &context, results: self.results, direction }, refs)
+        })
+    }
 }
 
 /// One direction of a pair of groups in the last frame.
@@ -108,9 +147,41 @@ struct Frame<'a> {
 }
 
 impl<'a> Frame<'a> {
-    /// Sum over the contacts, surface by surface.
+    /// Sum of the derivatives over the contacts.
     fn slopes(&self, refs: &[ContactRef]) -> Result<DirectionSlopes, Unknown> {
         let mut sum = DirectionSlopes::default();
+        self.each_surface(refs, |moving| {
+            let unknown = |why| self.unknown(moving.contact, why);
+            let slopes = moving.slopes(self.context).ok_or_else(|| unknown(Missing::HostLaw))?;
+            sum.add(&slopes, moving.contact);
+            if self.context.props(&moving.contact.found).has_resistance() {
+                let couple = resistance::couple(moving, self.context, &slopes);
+                sum.add_couple(&couple.ok_or_else(|| unknown(Missing::Resistance))?);
+            }
+            Ok(())
+        })?;
+        Ok(sum)
+    }
+
+    /// Incremental potential of the contacts; `None` if none pushes.
+    fn increment(&self, refs: &[ContactRef], step: f64) -> Result<Option<Increment>, Unknown> {
+        let mut sum = None;
+        self.each_surface(refs, |moving| {
+            if self.context.props(&moving.contact.found).has_resistance() {
+                return Err(self.unknown(moving.contact, Missing::Resistance));
+            }
+            let added = sum.get_or_insert_with(Increment::default).add(moving, self.context, step);
+            added.ok_or_else(|| self.unknown(moving.contact, Missing::HostLaw))
+        })?;
+        Ok(sum)
+    }
+
+    /// Calls `visit` for each contact that pushes, with the derivatives of its geometry and weight, surface by surface.
+    fn each_surface(
+        &self,
+        refs: &[ContactRef],
+        mut visit: impl FnMut(&Moving<'_>) -> Result<(), Unknown>,
+    ) -> Result<(), Unknown> {
         let contact = |reference: &ContactRef| self.results.contacts.found.contact(reference);
         let surface = |reference: &ContactRef| {
             let key = &contact(reference).found.key;
@@ -125,25 +196,14 @@ impl<'a> Frame<'a> {
                     contacts.push(self.moving(reference, contact)?);
                 }
             }
-            if contacts.is_empty() {
-                continue;
-            }
-            let unknown = |of: &Moving<'_>, why| self.unknown(of.contact, why);
-            let kind_a = contacts[0].kind_a;
+            let Some(kind_a) = contacts.first().map(|moving| moving.kind_a) else { continue };
             if sharing::weigh(kind_a, &mut contacts).is_none() {
-                return Err(unknown(&contacts[0], Missing::Shapes));
+                return Err(self.unknown(contacts[0].contact, Missing::Shapes));
             }
             sharing::share_bristles(&mut contacts);
-            for moving in &contacts {
-                let slopes = moving.slopes(self.context).ok_or_else(|| unknown(moving, Missing::HostLaw))?;
-                sum.add(&slopes, moving.contact);
-                if self.context.props(&moving.contact.found).has_resistance() {
-                    let couple = resistance::couple(moving, self.context, &slopes);
-                    sum.add_couple(&couple.ok_or_else(|| unknown(moving, Missing::Resistance))?);
-                }
-            }
+            contacts.iter().try_for_each(&mut visit)?;
         }
-        Ok(sum)
+        Ok(())
     }
 
     fn unknown(&self, contact: &FrameContact, why: Missing) -> Unknown {
@@ -202,7 +262,10 @@ impl<'a> Frame<'a> {
         }
         let of_a = AtContact::new(element_a, x_ab.point(&found.deepest_b), -x_ab.vector(&normal));
         let shape_a: Shape = of_a.shape_of_a(on_edge)?.rotated(&x_ba.rotation);
-        touch.moves(&shape_a, &of_b.shape_of_b(found.feature)?)
+        let shape_b = of_b.shape_of_b(found.feature)?;
+        // On a flat face the face gives the normal; elsewhere the end of a wall does not turn it like a rim.
+        let is_unique = matches!(shape_b, Shape::Flat) || !of_a.is_end_of_wall();
+        if is_unique { touch.moves(&shape_a, &shape_b) } else { None }
     }
 
     fn moves_of_ray(&self, ray: &Ray, found: &ContactCandidate) -> Option<Moves> {

@@ -156,6 +156,15 @@ impl<'a> AtContact<'a> {
         Shape::of_rim(&Circle::at_end(frustum, end), &self.place, &self.outward)
     }
 
+    /// True at the end of the side of a round solid, where its outward normal is still that of the side.
+    pub fn is_end_of_wall(&self) -> bool {
+        let (PrimitiveRef::Cylinder(frustum) | PrimitiveRef::Cone(frustum)) = self.element else {
+            return false;
+        };
+        let is_on_wall = (self.outward.dot(&frustum.axis) - frustum.wall[0]).abs() < ROUNDING;
+        is_on_wall && !is_between(&self.place, &frustum.ends)
+    }
+
     /// Shape of the primitive as B, whose `feature` pushes.
     pub fn shape_of_b(&self, feature: Feature) -> Option<Shape> {
         match self.element {

@@ -83,15 +83,12 @@ impl World {
     }
 
     fn touching_pairs(&self) -> Vec<Touching> {
-        let sealed = &self.runtime.sealed;
-        let mut pairs = Vec::new();
-        self.for_each_touching(|group_pair, _, _| {
-            let bodies = sealed.group_pairs[group_pair as usize].sides();
+        let touching = |(group_pair, bodies)| {
             let mut tangent = PairTangent::of_groups(self.scene.stamp, bodies);
             tangent.by_differences = true;
-            pairs.push(Touching { group_pair: group_pair as usize, bodies, tangent });
-        });
-        pairs
+            Touching { group_pair, bodies, tangent }
+        };
+        self.touching_bodies().into_iter().map(touching).collect()
     }
 
     fn widths(&self, body: usize) -> Widths {
@@ -124,7 +121,12 @@ impl World {
             for sign in [1.0, -1.0] {
                 self.set_state(interface, &moved(state, coordinate, sign * width))?;
                 self.evaluate()?;
-                sides.push(touching.iter().map(|pair| self.both_wrenches(pair)).collect::<Vec<_>>());
+                sides.push(
+                    touching
+                        .iter()
+                        .map(|pair| self.both_wrenches((pair.group_pair, pair.bodies)))
+                        .collect::<Vec<_>>(),
+                );
             }
             for (index, pair) in touching.iter_mut().enumerate() {
                 let Some(of) = pair.bodies.iter().position(|own| *own == body) else { continue };
@@ -140,12 +142,6 @@ impl World {
             }
         }
         Ok(())
-    }
-
-    /// Wrenches of a pair of groups on each other, about their origins, along common axes.
-    fn both_wrenches(&self, pair: &Touching) -> [Wrench; 2] {
-        let results = self.last_results();
-        pair.bodies.map(|on| results.along_common_axes(&results.wrench_of_groups(pair.group_pair, on), on))
     }
 }
 

@@ -24,6 +24,7 @@ mod distance;
 mod energy;
 mod frame;
 mod pair_wrench;
+mod regressor;
 mod results;
 mod standing;
 mod tangent;
@@ -31,6 +32,7 @@ mod workers;
 
 pub use continuation::Continuation;
 pub use distance::{GroupDistance, NearestPrimitive};
+pub use regressor::SurfaceSlope;
 
 use crate::inspect::Inspection;
 use crate::runtime::Runtime;

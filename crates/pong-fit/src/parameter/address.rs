@@ -1,6 +1,5 @@
 //! A name resolved to a number of a built scene.
 
-use super::surface;
 use crate::error::{FitError, Result};
 use pong_engine::ModelId;
 use pong_executive::scene::BuiltScene;
@@ -224,14 +223,14 @@ fn of_surface(rest: &str, scene: &BuiltScene) -> Found {
                 known.push(format!("surface.{}.{}", held.name, surface.name));
                 continue;
             };
-            let values = surface::values_of(surface);
+            let values = surface.numbers();
             let Some((name, unit)) = values.iter().find(|(name, _)| *name == value) else {
                 let names: Vec<&str> = values.iter().map(|(name, _)| *name).collect();
                 let cure =
                     format!("it has: {}; to fit another, give the model a value for it", names.join(", "));
                 return Err((format!("the surface has no value `{value}`"), cure));
             };
-            let in_scene = surface::number(&mut surface.clone(), name).map_or(0.0, |number| *number);
+            let in_scene = surface.clone().number_mut(name).map_or(0.0, |number| *number);
             let target = Target::Surface { model, surface: surface.name.clone(), value: name };
             return Ok((target, unit, in_scene));
         }

@@ -8,7 +8,6 @@
 
 mod address;
 mod original;
-mod surface;
 
 pub use address::Parameter;
 pub(crate) use address::Target;

@@ -1,7 +1,6 @@
 //! Values of a scene as built, and all values of a case set together.
 
 use super::address::{BodyValue, Parameter, Target};
-use super::surface;
 use crate::error::Result;
 use pong_engine::ModelId;
 use pong_executive::scene::BuiltScene;
@@ -77,7 +76,7 @@ impl Original {
             for (parameter, value) in parameters.iter().zip(values) {
                 if let Target::Surface { model, surface, value: name } = &parameter.target
                     && (model, surface) == (of_model, &original.name)
-                    && let Some(number) = surface::number(&mut wanted, name)
+                    && let Some(number) = wanted.number_mut(name)
                 {
                     *number = *value;
                 }

@@ -2,6 +2,7 @@
 
 pub mod friction;
 pub mod memory;
+pub mod potential;
 pub mod sides;
 pub mod tangent;
 

@@ -77,7 +77,7 @@ fn table_of(tangents: &[PairTangent], (is_twist, stage): (bool, &Stage), size: f
 }
 
 /// Factor of a moment or a rotation: one over the size.
-fn scale(index: usize, size: f64) -> f64 {
+pub(super) fn scale(index: usize, size: f64) -> f64 {
     if index % 6 < 3 { 1.0 } else { 1.0 / size }
 }
 
@@ -138,7 +138,7 @@ fn fastest(states: &[State; 2], size: f64) -> f64 {
 }
 
 /// A state with one coordinate of its pose or twist changed.
-fn moved(state: &State, coordinate: usize, by: f64, is_twist: bool) -> State {
+pub(super) fn moved(state: &State, coordinate: usize, by: f64, is_twist: bool) -> State {
     let mut vector = Vec3::zeros();
     vector[coordinate % 3] = by;
     let (mut pose, mut twist): (Pose, Twist) = (state.pose(), state.twist());
@@ -152,7 +152,7 @@ fn moved(state: &State, coordinate: usize, by: f64, is_twist: bool) -> State {
 }
 
 /// Contacts with the branches of their laws, in one order.
-fn branches(answer: &Answer) -> Vec<([u32; 3], u32, u32, bool, bool)> {
+pub(super) fn branches(answer: &Answer) -> Vec<([u32; 3], u32, u32, bool, bool)> {
     let mut all: Vec<_> = answer
         .contacts
         .iter()

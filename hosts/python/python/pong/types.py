@@ -3,7 +3,7 @@
 | type | returned by |
 |---|---|
 | `AddedModel`, `Object`, `Pair`, `Interface` | `WorldBuilder`, `World`: what was set up, and its number |
-| `FrameReport`, `ContactChange`, `PairPeaks`, `Distance`, `Tangent` | `World`: frames |
+| `FrameReport`, `ContactChange`, `PairPeaks`, `Distance`, `Tangent`, `Potential`, `SurfaceSlope` | `World`: frames |
 | `Run` | `Simulation.run` |
 | `Replay`, `Trade` with `Level`, `Tuned` | `replay`, `trade`, `tune` |
 | `BatchRuns` | `Batch.run` |
@@ -27,9 +27,11 @@ from ._pong import (
     Object,
     Pair,
     PairPeaks,
+    Potential,
     Replay,
     Row,
     Run,
+    SurfaceSlope,
     Tangent,
     Trade,
     Tuned,
@@ -50,9 +52,11 @@ __all__ = [
     "Object",
     "Pair",
     "PairPeaks",
+    "Potential",
     "Replay",
     "Row",
     "Run",
+    "SurfaceSlope",
     "Tangent",
     "Trade",
     "Tuned",
