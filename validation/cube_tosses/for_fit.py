@@ -1,6 +1,8 @@
 """Writes the cube tosses as a scene and a data file for `pong fit` (docs/fit.md):
 
 python3 -m validation.cube_tosses.for_fit DIR
+
+tosses.csv has the records around a touch; whole.csv has the poses of all whole tosses, for `--momentum`.
 """
 
 import sys
@@ -17,7 +19,8 @@ FRAMES = 26  # of a record
 BEFORE = 2  # frames before the touch
 # Standard deviations of one axis.
 NOISE = {"position": 0.0005, "rotation": 0.008, "velocity": 0.02, "angular_velocity": 0.3}
-COLUMNS = "record,time,x,y,z,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz"
+POSE = "record,time,x,y,z,qw,qx,qy,qz"
+COLUMNS = f"{POSE},vx,vy,vz,wx,wy,wz"
 # The damping of the law sets in over a depth, so that the force is continuous.
 CUBE = """(
     format: "pong-model", version: 1, name: "cube",
@@ -48,24 +51,32 @@ def records(tosses):
 def text(chosen):
     """Text of the data file."""
     lines = [f"# noise.{name} = {value}" for name, value in NOISE.items()] + ["# angular_velocity = body", COLUMNS]
-    for number, states in chosen:
-        for frame, state in enumerate(states):
-            lines.append(f"{number},{frame * FRAME:.9f}," + ",".join(f"{value:.9g}" for value in state))
-    return "\n".join(lines) + "\n"
+    return "\n".join(lines + rows(chosen)) + "\n"
+
+
+def rows(chosen):
+    """Lines of records, by number."""
+    return [
+        f"{number},{frame * FRAME:.9f}," + ",".join(f"{value:.9g}" for value in state)
+        for number, states in chosen
+        for frame, state in enumerate(states)
+    ]
 
 
 def write(folder):
-    """Writes toss.ron, cube.ron, table.ron and tosses.csv."""
+    """Writes toss.ron, cube.ron, table.ron, tosses.csv and whole.csv."""
     folder.mkdir(parents=True, exist_ok=True)
     points = ", ".join(
         f'Point(name: "p{number}", position: ({", ".join(repr(float(x)) for x in corner)}))'
         for number, corner in enumerate(CORNERS)
     )
+    tosses = data.load()
     files = {
         "toss.ron": SCENE,
         "cube.ron": CUBE.format(points=points),
         "table.ron": TABLE,
-        "tosses.csv": text(records(data.load())),
+        "tosses.csv": text(records(tosses)),
+        "whole.csv": "\n".join([POSE, *rows((number, toss[:, :7]) for number, toss in enumerate(tosses))]) + "\n",
     }
     for name, content in files.items():
         (folder / name).write_text(content)

@@ -160,7 +160,10 @@ pub fn fit_text(scene: &Scene, text: &str, file: &str, settings: &Settings, watc
 }
 
 /// Names of the bodies that data may be of.
-fn free_bodies(scene: &Scene) -> Result<Vec<String>> {
+///
+/// # Errors
+/// A scene that cannot be built.
+pub fn free_bodies(scene: &Scene) -> Result<Vec<String>> {
     let built = scene.build()?;
     let free = built.simulation.bodies().filter(|(_, body)| body.mass().is_some());
     Ok(free.map(|(_, body)| body.name.clone()).collect())
