@@ -86,22 +86,22 @@ struct Momentum {
         "tries", "threads", "no_profiles"])]
     momentum: bool,
     /// The body; not needed if one body is free.
-    #[arg(long, value_name = "NAME", requires = "momentum")]
+    #[arg(long, value_name = "NAME", conflicts_with = "free")]
     body: Option<String>,
     /// Number of measurements of the flights before and after a touch.
-    #[arg(long, value_name = "N", default_value_t = MomentumSettings::default().flight, requires = "momentum")]
+    #[arg(long, value_name = "N", default_value_t = MomentumSettings::default().flight, conflicts_with = "free")]
     flight: usize,
     /// Number of measurements between a touch and each flight.
-    #[arg(long, value_name = "N", default_value_t = MomentumSettings::default().clear, requires = "momentum")]
+    #[arg(long, value_name = "N", default_value_t = MomentumSettings::default().clear, conflicts_with = "free")]
     clear: usize,
     /// Largest number of measurements in a touch.
-    #[arg(long, value_name = "N", default_value_t = MomentumSettings::default().longest, requires = "momentum")]
+    #[arg(long, value_name = "N", default_value_t = MomentumSettings::default().longest, conflicts_with = "free")]
     longest: usize,
     /// Distance from the other bodies below which a point may touch, m.
-    #[arg(long, value_name = "METRES", default_value_t = MomentumSettings::default().near, requires = "momentum")]
+    #[arg(long, value_name = "METRES", default_value_t = MomentumSettings::default().near, conflicts_with = "free")]
     near: f64,
     /// Distance that all other points of the body keep in a touch, m.
-    #[arg(long, value_name = "METRES", default_value_t = MomentumSettings::default().apart, requires = "momentum")]
+    #[arg(long, value_name = "METRES", default_value_t = MomentumSettings::default().apart, conflicts_with = "free")]
     apart: f64,
 }
 

@@ -122,8 +122,7 @@ pub fn fit(scene: &Scene, data: &Data, settings: &Settings, watch: Watch<'_>) ->
     settings.check()?;
     let names: Vec<String> = settings.free.iter().map(|free| free.name.clone()).collect();
     let mut batch = Batch::new(scene, &names, settings.threads)?;
-    let gravity = batch.first().simulation().gravity();
-    let checked = check(data, &gravity);
+    let checked = check(data, scene)?;
     if !checked.faults.is_empty() {
         return Err(FitError(checked.faults.join("\n")));
     }

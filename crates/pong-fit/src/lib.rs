@@ -5,6 +5,7 @@
 //! | `parameter/` | names resolved to numbers of a scene, set together |
 //! | `batch.rs` | many short runs in one call, on all cores |
 //! | `data/` | measured data read and checked |
+//! | `probe.rs` | contacts of a body at measured poses |
 //! | `settings.rs` | settings; scales of the search |
 //! | `trials.rs` | residuals of records |
 //! | `solve.rs` | bounded least squares |
@@ -24,6 +25,7 @@ mod intervals;
 mod momentum;
 mod parameter;
 mod paste;
+mod probe;
 mod random;
 pub mod report;
 mod settings;

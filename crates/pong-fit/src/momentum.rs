@@ -9,9 +9,10 @@
 use crate::data::{Data, Record, check};
 use crate::error::{FitError, Result};
 use crate::paste::{mass_text, number};
+use crate::probe::Probe;
 use crate::random::Random;
 use pong_executive::scene::Scene;
-use pong_executive::{BodyId, MassProperties, Mat3, Pose, Quat, Simulation, Twist, Vec3};
+use pong_executive::{BodyId, MassProperties, Mat3, Pose, Quat, Simulation, Vec3};
 use pong_geometry::pose::rotation_vector;
 use std::fmt::Write as _;
 use std::ops::RangeInclusive;
@@ -154,7 +155,7 @@ pub fn inertia_from_momentum(
 ) -> Result<MomentumInertia> {
     settings.check()?;
     let mut finder = Finder::new(scene, settings)?;
-    let checked = check(data, &finder.simulation.gravity());
+    let checked = check(data, scene)?;
     if !checked.faults.is_empty() {
         return Err(FitError(checked.faults.join("\n")));
     }
@@ -350,15 +351,8 @@ impl<'a> Finder<'a> {
 
     /// Contact points in the frame of the body, and depths (m), of a pose that is lower by a distance, m.
     fn contacts(&mut self, pose: &Pose, lower: f64) -> Result<Vec<(Vec3, f64)>> {
-        let moved = Pose { position: pose.position - self.up * lower, ..*pose };
-        self.simulation.clear_contact_history()?;
-        self.simulation.set_motion(self.body, moved, Twist::zero())?;
-        self.simulation.commit_initial_states()?;
-        let interface = self.simulation.bodies().nth(self.body.index()).and_then(|(_, body)| body.interface);
-        let to_body = moved.inverse();
-        let contacts = self.simulation.world().contacts_iter();
-        let own = contacts.filter(|one| [one.a.interface, one.b.interface].map(Some).contains(&interface));
-        Ok(own.map(|one| (to_body.orientation * one.point + to_body.position, one.depth)).collect())
+        let position = pose.position - self.up * lower;
+        Probe::new(&mut self.simulation, self.body).contacts(Pose { position, ..*pose })
     }
 
     /// Tests whether a point of the body is nearer to other bodies than `near`.

@@ -72,7 +72,7 @@ fn wrong_arguments_and_data_are_refused() {
         (&["--data", "drop.ron", "--free", FREE], 1, "name columns among"),
         (&["--data", "log"], 2, "--free <NAME[=LOW..HIGH]>"),
         (&["--data", "log", "--momentum", "--free", FREE], 2, "cannot be used with"),
-        (&["--data", "log", "--free", FREE, "--body", "ball"], 2, "--momentum"),
+        (&["--data", "log", "--free", FREE, "--body", "ball"], 2, "cannot be used with"),
         (&["--data", "log", "--momentum"], 1, "0 touches of one point between two flights"),
         (&["--data", "log", "--momentum", "--body", "ground"], 1, "name one of: ball"),
         (&["--data", "log", "--free", "surface.ball.hard.stiffness=1..2"], 1, "there is no such surface"),

@@ -6,10 +6,12 @@
 //! | `csv.rs` | a text file read |
 //! | `log.rs` | a response log read |
 //! | `checks.rs` | gaps, units, order of quaternions, axes of angular velocities |
+//! | `readings.rs` | order of quaternions without angular velocities |
 
 mod checks;
 mod csv;
 mod log;
+mod readings;
 mod record;
 
 pub use checks::{Checked, check};
