@@ -121,7 +121,7 @@ pub struct Fit {
 pub fn fit(scene: &Scene, data: &Data, settings: &Settings, watch: Watch<'_>) -> Result<Fit> {
     settings.check()?;
     let names: Vec<String> = settings.free.iter().map(|free| free.name.clone()).collect();
-    let mut batch = Batch::new(scene, &names, settings.threads)?;
+    let batch = Batch::new(scene, &names, settings.threads)?;
     let checked = check(data, scene)?;
     if !checked.faults.is_empty() {
         return Err(FitError(checked.faults.join("\n")));
