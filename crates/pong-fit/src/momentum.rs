@@ -26,6 +26,9 @@ const ENOUGH: usize = 10;
 /// Number of draws of the bootstrap.
 const DRAWS: usize = 4000;
 
+/// Depth at which a point of contact is taken, in the distance `near`.
+const GRAZING: f64 = 1e-3;
+
 /// Least size of the sum that the slope divides by, relative to the root of the sum of its squares.
 const TURNED: f64 = 1e-6;
 
@@ -369,12 +372,22 @@ impl<'a> Finder<'a> {
                 return Ok(None);
             }
         }
-        let mut deepest: Option<(Vec3, f64)> = None;
+        let mut deepest: Option<(Pose, f64)> = None;
         for pose in &path.poses[begin..=end] {
-            let contacts = self.contacts(pose, near)?;
-            deepest = contacts.into_iter().chain(deepest).max_by(|one, other| one.1.total_cmp(&other.1));
+            for (_, depth) in self.contacts(pose, near)? {
+                if deepest.is_none_or(|(_, most)| depth > most) {
+                    deepest = Some((*pose, depth));
+                }
+            }
         }
-        let Some((point, _)) = deepest else { return Ok(None) };
+        let Some((pose, depth)) = deepest else { return Ok(None) };
+        // A point of contact lies deeper in the body the lower the body is, so it is lowered no more than to touch.
+        let lower = (near - depth + GRAZING * near).max(0.0);
+        let mut found = self.contacts(&pose, lower)?;
+        if found.is_empty() {
+            found = self.contacts(&pose, near)?;
+        }
+        let Some((point, _)) = found.first() else { return Ok(None) };
         let arm_in_body = point - self.mass.mass_center;
         let zero = 0.5 * (path.times[begin] + path.times[end]);
         let first = begin - clear - flight;
