@@ -29,8 +29,6 @@ pub(crate) struct Arguments {
     /// times of the scene's value. The search is on a logarithmic scale if both bounds are above zero.
     #[arg(long = "free", value_name = "NAME[=LOW..HIGH]", value_parser = free, required_unless_present = "momentum")]
     free: Vec<Free>,
-    #[command(flatten)]
-    momentum: Momentum,
     /// Folder for the results; `<scene>_fit` unless given.
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
@@ -74,6 +72,8 @@ pub(crate) struct Arguments {
     quiet: bool,
     #[command(flatten)]
     allowed: AllowedFolders,
+    #[command(flatten)]
+    momentum: Momentum,
 }
 
 /// Options of the inertia from momentum.

@@ -5,6 +5,7 @@
 //! interval the last two must give the change of the first. Contacts disturb few of the intervals, so the
 //! median over all of them judges.
 
+use super::interval::{Checked, Interval, intervals, median};
 use super::readings::{CLEARLY, Reading, orientations, readings};
 use super::record::{Data, Quantity, Record, Row};
 use crate::error::Result;
@@ -30,15 +31,6 @@ const FALLS: usize = 4;
 
 /// Share of the rotation in an interval from which on a miss that no reading explains is noted.
 const MISSES: f64 = 0.5;
-
-/// Result of the checks: each line has thing, cause and cure.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Checked {
-    /// Faults: the data cannot be used as they are.
-    pub faults: Vec<String>,
-    /// Notes.
-    pub notes: Vec<String>,
-}
 
 /// Checks data of a scene.
 ///
@@ -77,19 +69,6 @@ pub fn check(data: &Data, scene: &Scene) -> Result<Checked> {
 fn turns((a, b, dt): &&Interval<'_>) -> bool {
     let both = a.orientation.is_some() && b.orientation.is_some();
     both && a.angular_velocity.is_some_and(|w| w.norm() * dt > TURNS) && b.angular_velocity.is_some()
-}
-
-/// Two successive measurements of a body, and the time between them, s.
-pub(super) type Interval<'a> = (&'a Row, &'a Row, f64);
-
-fn intervals<'a>(record: &'a Record, body: &'a str) -> impl Iterator<Item = Interval<'a>> {
-    let of_body = move || record.rows.iter().filter(move |row| row.body == body);
-    of_body().zip(of_body().skip(1)).map(|(a, b)| (a, b, record.times[b.time] - record.times[a.time]))
-}
-
-pub(super) fn median(mut values: Vec<f64>) -> f64 {
-    values.sort_by(f64::total_cmp);
-    values.get(values.len() / 2).copied().unwrap_or(f64::NAN)
 }
 
 /// Rows in which something was measured: a line whose cells are empty is no measurement.

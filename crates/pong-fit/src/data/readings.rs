@@ -3,7 +3,7 @@
 //! Two facts tell readings apart. A free flight keeps its angular momentum; that needs unlike principal moments, because
 //! an even rotation is an even rotation in any order of the components. And a body does not sink into others.
 
-use super::checks::{Checked, Interval, median};
+use super::interval::{Checked, Interval, median};
 use super::record::{Record, Row};
 use crate::error::Result;
 use crate::probe::Probe;
