@@ -1,8 +1,9 @@
 """Writes the cube tosses as a scene and a data file for `pong fit` (docs/fit.md):
 
-python3 -m validation.cube_tosses.for_fit DIR
+python3 -m validation.cube_tosses.for_fit DIR [PART]
 
-tosses.csv has the records around a touch; whole.csv has the poses of all whole tosses, for `--momentum`.
+tosses.csv has the records around a touch of every third toss, from toss PART (0, 1 or 2; 0 unless given): three sets that
+share no toss. whole.csv has the poses of all whole tosses, for `--momentum`.
 """
 
 import sys
@@ -37,10 +38,10 @@ SCENE = """(
 )"""
 
 
-def records(tosses):
+def records(tosses, part):
     """Number and frames of every third toss that has enough of them around its first touch."""
     found = []
-    for number in range(0, len(tosses), 3):
+    for number in range(part, len(tosses), 3):
         below = np.flatnonzero(lowest_corner(tosses[number]) < 0.0)
         first = int(below[0]) - BEFORE if len(below) else -1
         if first >= 0 and first + FRAMES <= len(tosses[number]):
@@ -63,7 +64,7 @@ def rows(chosen):
     ]
 
 
-def write(folder):
+def write(folder, part=0):
     """Writes toss.ron, cube.ron, table.ron, tosses.csv and whole.csv."""
     folder.mkdir(parents=True, exist_ok=True)
     points = ", ".join(
@@ -75,7 +76,7 @@ def write(folder):
         "toss.ron": SCENE,
         "cube.ron": CUBE.format(points=points),
         "table.ron": TABLE,
-        "tosses.csv": text(records(tosses)),
+        "tosses.csv": text(records(tosses, part)),
         "whole.csv": "\n".join([POSE, *rows((number, toss[:, :7]) for number, toss in enumerate(tosses))]) + "\n",
     }
     for name, content in files.items():
@@ -84,6 +85,6 @@ def write(folder):
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 2:
-        sys.exit("usage: python3 -m validation.cube_tosses.for_fit DIR")
-    write(Path(sys.argv[1]))
+    if len(sys.argv) not in (2, 3) or sys.argv[2:] not in ([], ["0"], ["1"], ["2"]):
+        sys.exit("usage: python3 -m validation.cube_tosses.for_fit DIR [PART], PART 0, 1 or 2")
+    write(Path(sys.argv[1]), *map(int, sys.argv[2:]))

@@ -63,7 +63,7 @@ def test_inertia_is_that_of_the_tosses(tmp_path):
     other = scene(tmp_path, "other.ron", [truth / 2] * 3)
     found = pong.inertia_from_momentum(other, data)
     assert found.touches > 20 and found.inertia == pytest.approx(truth, rel=0.06)
-    assert found.interval[0] < truth < found.interval[1] and found.factor == pytest.approx(2.0, rel=0.06)
+    assert found.interval[0] < found.inertia < found.interval[1] and found.factor == pytest.approx(2.0, rel=0.06)
     assert isinstance(found, pong.types.MomentumInertia) and "kg·m²" in str(found)
     assert "Inertia of `cube` from momentum" in found.page
     lines = ["# noise.position = 3e-4", "record,time,x,y,z,qw,qx,qy,qz"]
