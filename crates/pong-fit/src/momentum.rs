@@ -183,8 +183,9 @@ pub fn inertia_from_momentum(
     }
     let total = sum(&touches);
     let turned = touches.iter().map(|one| one.instrument_turning * one.instrument_turning).sum::<f64>();
-    // Written so that a value that is no number is refused, too.
-    if !(total.instrument_turning.abs() > TURNED * turned.sqrt()) {
+    // False for a value that is no number, too.
+    let turns = total.instrument_turning.abs() > TURNED * turned.sqrt();
+    if !turns {
         let cause = "impulses along the vertical turn it in no touch";
         return Err(FitError::new(thing(), cause, "its points of contact must lie beside its mass centre"));
     }

@@ -101,15 +101,15 @@ pub(super) fn orientations(
 ) -> Result<()> {
     let flights = changes(pairs, mass);
     let (depths, size) = if probe.others_are_fixed() { depths(body, records, probe)? } else { (None, 0.0) };
-    let percent = |miss: f64| format!("{:.2} %", 100.0 * miss);
-    let millimetres = |miss: f64| format!("{:.2} mm", 1e3 * miss);
-    let evidence: [(Misses, f64, &str, &dyn Fn(f64) -> String); 2] = [
-        (flights, CHANGE, "the angular momentum changes by", &percent),
-        (depths, DEEP * size, "the body sinks into others by", &millimetres),
+    // Misses, those that noise may show, words, and the unit in which they are given.
+    let evidence = [
+        (flights, CHANGE, "the angular momentum changes by", (100.0, "%")),
+        (depths, DEEP * size, "the body sinks into others by", (1e3, "mm")),
     ];
     let mut open = [false, true, true, true];
-    for (misses, allowed, words, number) in evidence {
+    for (misses, allowed, words, (scale, unit)) in evidence {
         let Some(misses) = misses else { continue };
+        let number = |miss: f64| format!("{:.2} {unit}", scale * miss);
         let clearly = |more: f64, less: f64| less <= allowed && more > CLEARLY * less + allowed;
         let best = (0..4).min_by(|a, b| misses[*a].total_cmp(&misses[*b])).unwrap_or(0);
         if clearly(misses[0], misses[best]) {
