@@ -31,6 +31,7 @@ def rows(home):
         yield Row(f"{quantity} on {body} at the end", history.last(body, quantity), value, within, units[quantity])
     followed = [key for key, value in closed.items() if abs(value - before[key]) > MOVED * abs(before[key])]
     yield Fact(f"closed forms follow {names}: {len(followed)} of {len(closed)}", bool(followed))
+    yield from getattr(mechanism, "more_rows", tuple)()
 
 
 def unchanged(fields):

@@ -30,6 +30,10 @@ ROCKER_Z = 0.250  # pivot of the rocker on the chassis, at x = 0: a third of the
 ROCKER_MASS, BOGIE_MASS, STEER_MASS = 10.0, 6.0, model.HUB_MASS
 GROSS_MASS = model.GROSS_MASS
 CHASSIS_MASS = GROSS_MASS - 2 * (ROCKER_MASS + BOGIE_MASS) - 6 * (STEER_MASS + model.WHEEL_MASS)
+# A chassis of another mass has the size of the one in the model, so that its moments grow with its mass.
+CHASSIS_INERTIA = tuple(
+    moment * CHASSIS_MASS / (CHASSIS_MASS + model.GROSS_MASS - GROSS_MASS) for moment in model.CHASSIS_INERTIA
+)
 CHASSIS_Z = 0.350  # of its centre of mass
 PIVOT_DAMPING = 50.0  # of rockers and bogies, N·m·s/rad
 

@@ -6,6 +6,7 @@ import dimensions as d
 import rig
 import scenes
 from dimensions import model
+from kit.rows import Row
 
 LOADED = tuple(f"wheel_{name}" for name in rig.WHEELS)
 LEVELS = {"training": d.TRAINING, "analysis": d.ANALYSIS, "rigid": d.RIGID}
@@ -39,3 +40,13 @@ def predicted(case):
     third = borne / 3 + d.STEER_MASS + model.WHEEL_MASS
     masses = {"front": third, "middle": third + d.BOGIE_MASS / 2, "rear": third + d.BOGIE_MASS / 2}
     return {(f"wheel_{name}", "force"): masses[name.split("_")[0]] * model.GRAVITY for name in rig.WHEELS}
+
+
+def more_rows():
+    """Loads at rest say nothing of inertia: moments of the chassis per kg, in MuJoCo and in the model's rover."""
+    made = rig.machine(d.RIGID, "floor")
+    body = made.model.body("chassis")
+    unsprung = d.GROSS_MASS - d.CHASSIS_MASS
+    for axis, measured, moment in zip("xyz", body.inertia, model.CHASSIS_INERTIA):
+        of_model = moment / (model.GROSS_MASS - unsprung)
+        yield Row(f"inertia of the chassis about {axis}, per kg", measured / body.mass[0], of_model, 1e-6, "m²")

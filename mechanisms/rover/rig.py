@@ -66,7 +66,7 @@ def rocker(side, locked):
 def chassis(place, locked):
     return (
         f'<body name="chassis" pos="{mjcf.numbers(place)}"><freejoint name="chassis"/>'
-        f'<inertial pos="0 0 {d.CHASSIS_Z}" mass="{d.CHASSIS_MASS:.12g}" diaginertia="{mjcf.numbers(model.CHASSIS_INERTIA)}"/>'
+        f'<inertial pos="0 0 {d.CHASSIS_Z}" mass="{d.CHASSIS_MASS:.12g}" diaginertia="{mjcf.numbers(d.CHASSIS_INERTIA)}"/>'
         f'<geom type="box" pos="0 0 {d.CHASSIS_Z}" size="1.1 0.6 0.15" rgba="{BLUE}"/>'
         f"{''.join(rocker(side, locked) for side in d.SIDES)}</body>"
     )

@@ -1,6 +1,9 @@
 """Writes the cube tosses as a scene and a data file for `pong fit` (docs/fit.md):
 
-python3 -m validation.cube_tosses.for_fit DIR
+python3 -m validation.cube_tosses.for_fit DIR [PART]
+
+tosses.csv has the records around a touch of every third toss, from toss PART (0, 1 or 2; 0 unless given): three sets that
+share no toss. whole.csv has the poses of all whole tosses, for `--momentum`.
 """
 
 import sys
@@ -17,7 +20,8 @@ FRAMES = 26  # of a record
 BEFORE = 2  # frames before the touch
 # Standard deviations of one axis.
 NOISE = {"position": 0.0005, "rotation": 0.008, "velocity": 0.02, "angular_velocity": 0.3}
-COLUMNS = "record,time,x,y,z,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz"
+POSE = "record,time,x,y,z,qw,qx,qy,qz"
+COLUMNS = f"{POSE},vx,vy,vz,wx,wy,wz"
 # The damping of the law sets in over a depth, so that the force is continuous.
 CUBE = """(
     format: "pong-model", version: 1, name: "cube",
@@ -34,10 +38,10 @@ SCENE = """(
 )"""
 
 
-def records(tosses):
+def records(tosses, part):
     """Number and frames of every third toss that has enough of them around its first touch."""
     found = []
-    for number in range(0, len(tosses), 3):
+    for number in range(part, len(tosses), 3):
         below = np.flatnonzero(lowest_corner(tosses[number]) < 0.0)
         first = int(below[0]) - BEFORE if len(below) else -1
         if first >= 0 and first + FRAMES <= len(tosses[number]):
@@ -48,24 +52,32 @@ def records(tosses):
 def text(chosen):
     """Text of the data file."""
     lines = [f"# noise.{name} = {value}" for name, value in NOISE.items()] + ["# angular_velocity = body", COLUMNS]
-    for number, states in chosen:
-        for frame, state in enumerate(states):
-            lines.append(f"{number},{frame * FRAME:.9f}," + ",".join(f"{value:.9g}" for value in state))
-    return "\n".join(lines) + "\n"
+    return "\n".join(lines + rows(chosen)) + "\n"
 
 
-def write(folder):
-    """Writes toss.ron, cube.ron, table.ron and tosses.csv."""
+def rows(chosen):
+    """Lines of records, by number."""
+    return [
+        f"{number},{frame * FRAME:.9f}," + ",".join(f"{value:.9g}" for value in state)
+        for number, states in chosen
+        for frame, state in enumerate(states)
+    ]
+
+
+def write(folder, part=0):
+    """Writes toss.ron, cube.ron, table.ron, tosses.csv and whole.csv."""
     folder.mkdir(parents=True, exist_ok=True)
     points = ", ".join(
         f'Point(name: "p{number}", position: ({", ".join(repr(float(x)) for x in corner)}))'
         for number, corner in enumerate(CORNERS)
     )
+    tosses = data.load()
     files = {
         "toss.ron": SCENE,
         "cube.ron": CUBE.format(points=points),
         "table.ron": TABLE,
-        "tosses.csv": text(records(data.load())),
+        "tosses.csv": text(records(tosses, part)),
+        "whole.csv": "\n".join([POSE, *rows((number, toss[:, :7]) for number, toss in enumerate(tosses))]) + "\n",
     }
     for name, content in files.items():
         (folder / name).write_text(content)
@@ -73,6 +85,6 @@ def write(folder):
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 2:
-        sys.exit("usage: python3 -m validation.cube_tosses.for_fit DIR")
-    write(Path(sys.argv[1]))
+    if len(sys.argv) not in (2, 3) or sys.argv[2:] not in ([], ["0"], ["1"], ["2"]):
+        sys.exit("usage: python3 -m validation.cube_tosses.for_fit DIR [PART], PART 0, 1 or 2")
+    write(Path(sys.argv[1]), *map(int, sys.argv[2:]))

@@ -1,9 +1,12 @@
 //! `pong fit`: parameters of a scene from measured data.
 
 use crate::folders::AllowedFolders;
-use crate::terminal::{Outcome, SPINNER, failure, print, progress, show, tell_lines, unwritable};
+use crate::terminal::{Failure, Outcome, SPINNER, failure, print, progress, show, tell_lines, unwritable};
 use pong_executive::scene::Scene;
-use pong_fit::{Batch, Fit, Free, Quantity, Settings, Starts, fit_file, report};
+use pong_fit::{
+    Batch, Fit, FitError, Free, MomentumSettings, Quantity, Settings, Starts, fit_file, free_bodies,
+    inertia_from_momentum, load, report,
+};
 use std::ops::ControlFlow;
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -12,7 +15,8 @@ use std::process::ExitCode;
 /// (docs/fit.md).
 ///
 /// Writes fit.md, parameters.csv, profiles.csv and fit.svg: the optimum with intervals, what cannot be told
-/// apart, the error on records that took no part, and surfaces to paste.
+/// apart, the error on records that took no part, and surfaces to paste. With `--momentum`: the inertia of a
+/// tossed body, without any law of contact; writes momentum.md.
 #[derive(clap::Args)]
 pub(crate) struct Arguments {
     /// The scene file.
@@ -23,7 +27,7 @@ pub(crate) struct Arguments {
     data: PathBuf,
     /// A free parameter, with its bounds; may be given several times. Without bounds: a hundredth to a hundred
     /// times of the scene's value. The search is on a logarithmic scale if both bounds are above zero.
-    #[arg(long = "free", value_name = "NAME[=LOW..HIGH]", value_parser = free, required = true)]
+    #[arg(long = "free", value_name = "NAME[=LOW..HIGH]", value_parser = free, required_unless_present = "momentum")]
     free: Vec<Free>,
     /// Folder for the results; `<scene>_fit` unless given.
     #[arg(short, long, value_name = "DIR")]
@@ -68,6 +72,37 @@ pub(crate) struct Arguments {
     quiet: bool,
     #[command(flatten)]
     allowed: AllowedFolders,
+    #[command(flatten)]
+    momentum: Momentum,
+}
+
+/// Options of the inertia from momentum.
+#[derive(clap::Args)]
+#[command(next_help_heading = "Inertia from momentum")]
+struct Momentum {
+    /// Inertia of a free body from touches of one point between two flights, without any law of contact; needs
+    /// positions and orientations alone.
+    #[arg(long, conflicts_with_all = ["free", "noise", "of", "from", "horizon", "test", "measured_starts",
+        "tries", "threads", "no_profiles"])]
+    momentum: bool,
+    /// The body; not needed if one body is free.
+    #[arg(long, value_name = "NAME", conflicts_with = "free")]
+    body: Option<String>,
+    /// Number of measurements of the flights before and after a touch.
+    #[arg(long, value_name = "N", default_value_t = MomentumSettings::default().flight, conflicts_with = "free")]
+    flight: usize,
+    /// Number of measurements between a touch and each flight.
+    #[arg(long, value_name = "N", default_value_t = MomentumSettings::default().clear, conflicts_with = "free")]
+    clear: usize,
+    /// Largest number of measurements in a touch.
+    #[arg(long, value_name = "N", default_value_t = MomentumSettings::default().longest, conflicts_with = "free")]
+    longest: usize,
+    /// Distance from the other bodies below which a point may touch, m.
+    #[arg(long, value_name = "METRES", default_value_t = MomentumSettings::default().near, conflicts_with = "free")]
+    near: f64,
+    /// Distance that all other points of the body keep in a touch, m.
+    #[arg(long, value_name = "METRES", default_value_t = MomentumSettings::default().apart, conflicts_with = "free")]
+    apart: f64,
 }
 
 fn free(text: &str) -> Result<Free, String> {
@@ -107,6 +142,9 @@ fn share(text: &str) -> Result<f64, String> {
 }
 
 pub(crate) fn main(arguments: &Arguments) -> Outcome {
+    if arguments.momentum.momentum {
+        return momentum(arguments);
+    }
     let fit = run(arguments)?;
     let folder = output(arguments);
     report::write(&fit, &folder).map_err(|reason| unwritable(&folder, &reason))?;
@@ -125,8 +163,44 @@ fn output(arguments: &Arguments) -> PathBuf {
     arguments.output.clone().unwrap_or_else(|| PathBuf::from(format!("{stem}_fit")))
 }
 
-fn run(arguments: &Arguments) -> Result<Fit, crate::terminal::Failure> {
-    let scene = Scene::load(&arguments.scene)?.with_extensions(arguments.allowed.extensions());
+fn momentum(arguments: &Arguments) -> Outcome {
+    let scene = scene(arguments)?;
+    let Momentum { body, flight, clear, longest, near, apart, .. } = &arguments.momentum;
+    let settings = MomentumSettings {
+        body: body.clone(),
+        flight: *flight,
+        clear: *clear,
+        longest: *longest,
+        near: *near,
+        apart: *apart,
+        confidence: arguments.confidence,
+        seed: arguments.seed,
+    };
+    let found = free_bodies(&scene)
+        .and_then(|bodies| inertia_from_momentum(&scene, &load(&arguments.data, &bodies)?, &settings))
+        .map_err(of_fit)?;
+    let (folder, page) = (output(arguments), found.markdown());
+    std::fs::create_dir_all(&folder)
+        .and_then(|()| std::fs::write(folder.join("momentum.md"), &page))
+        .map_err(|reason| unwritable(&folder, &reason))?;
+    if arguments.quiet {
+        tell_lines(found.notes.join("\n"));
+    } else {
+        print(&format!("{page}\nwritten: momentum.md in {}\n", folder.display()));
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+fn scene(arguments: &Arguments) -> Result<Scene, Failure> {
+    Ok(Scene::load(&arguments.scene)?.with_extensions(arguments.allowed.extensions()))
+}
+
+fn of_fit(error: FitError) -> Failure {
+    if error.0.contains('\n') { error.into() } else { failure(error) }
+}
+
+fn run(arguments: &Arguments) -> Result<Fit, Failure> {
+    let scene = scene(arguments)?;
     let bar = progress(None, SPINNER, arguments.quiet);
     let mut watch = |doing: &str| {
         show(&bar, doing);
@@ -134,7 +208,7 @@ fn run(arguments: &Arguments) -> Result<Fit, crate::terminal::Failure> {
     };
     let found = fit_file(&scene, &arguments.data, &settings(arguments), &mut watch);
     bar.finish_and_clear();
-    found.map_err(|error| if error.0.contains('\n') { error.into() } else { failure(error) })
+    found.map_err(of_fit)
 }
 
 fn settings(arguments: &Arguments) -> Settings {

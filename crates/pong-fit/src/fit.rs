@@ -121,9 +121,8 @@ pub struct Fit {
 pub fn fit(scene: &Scene, data: &Data, settings: &Settings, watch: Watch<'_>) -> Result<Fit> {
     settings.check()?;
     let names: Vec<String> = settings.free.iter().map(|free| free.name.clone()).collect();
-    let mut batch = Batch::new(scene, &names, settings.threads)?;
-    let gravity = batch.first().simulation().gravity();
-    let checked = check(data, &gravity);
+    let batch = Batch::new(scene, &names, settings.threads)?;
+    let checked = check(data, scene)?;
     if !checked.faults.is_empty() {
         return Err(FitError(checked.faults.join("\n")));
     }
@@ -160,7 +159,10 @@ pub fn fit_text(scene: &Scene, text: &str, file: &str, settings: &Settings, watc
 }
 
 /// Names of the bodies that data may be of.
-fn free_bodies(scene: &Scene) -> Result<Vec<String>> {
+///
+/// # Errors
+/// A scene that cannot be built.
+pub fn free_bodies(scene: &Scene) -> Result<Vec<String>> {
     let built = scene.build()?;
     let free = built.simulation.bodies().filter(|(_, body)| body.mass().is_some());
     Ok(free.map(|(_, body)| body.name.clone()).collect())

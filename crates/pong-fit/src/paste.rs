@@ -113,7 +113,7 @@ fn surface_text(surface: &Surface) -> String {
 }
 
 /// Mass properties as in a body of a scene.
-fn mass_text(mass: &MassProperties) -> String {
+pub(crate) fn mass_text(mass: &MassProperties) -> String {
     let i = &mass.inertia;
     let off = [("xy", i[(0, 1)]), ("xz", i[(0, 2)]), ("yz", i[(1, 2)])];
     let diagonal = [i[(0, 0)], i[(1, 1)], i[(2, 2)]].map(number);

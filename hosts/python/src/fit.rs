@@ -4,7 +4,10 @@ use crate::errors::{StudyError, bad_value};
 use crate::model::extensions;
 use crate::replay::Interrupt;
 use pong_executive::scene::Scene;
-use pong_fit::{Errors, Estimate, Free, Quantity, Settings, Starts, fit_file, fit_text, report};
+use pong_fit::{
+    Errors, Estimate, Free, MomentumSettings, Quantity, Settings, Starts, fit_file, fit_text, free_bodies,
+    inertia_from_momentum, load, parse, report,
+};
 use pyo3::prelude::*;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -64,6 +67,39 @@ pub(crate) struct FitParameter {
     moved: bool,
     /// list of tuple[float, float] : Values with the rise of the sum of squares, in its variance.
     profile_points: Vec<(f64, f64)>,
+}
+
+/// Inertia of a body from the momentum of its touches.
+#[pyclass(frozen, eq, module = "pong.types", get_all)]
+#[derive(PartialEq)]
+pub(crate) struct MomentumInertia {
+    /// str : Page that `pong fit --momentum` prints, in Markdown.
+    page: String,
+    /// str : Name of the body.
+    body: String,
+    /// float : Mean of the principal moments of inertia, kg·m².
+    inertia: f64,
+    /// tuple[float, float] : Interval of `inertia` by bootstrap over the touches, kg·m².
+    interval: Ends,
+    /// float : Ratio to the inertia in the scene, as `body.BODY.inertia_factor` has it.
+    factor: f64,
+    /// tuple[float, float] : The two ordinary slopes, which errors of measurement bias to low and to high values, kg·m².
+    slopes: Ends,
+    /// int : Number of touches.
+    touches: usize,
+    /// list of str : Notes of the checks of the data, each with thing, cause and cure.
+    notes: Vec<String>,
+}
+
+#[pymethods]
+impl MomentumInertia {
+    fn __repr__(&self) -> String {
+        let (low, high) = self.interval;
+        format!(
+            "<pong.MomentumInertia of {}: {} [{low}, {high}] kg·m² from {} touches>",
+            self.body, self.inertia, self.touches
+        )
+    }
 }
 
 #[pymethods]
@@ -224,5 +260,78 @@ pub(crate) fn identify(
         to_paste: found.to_paste,
         notes: found.notes,
         runs: found.runs,
+    })
+}
+
+/// Finds an inertia from momentum: `pong.inertia_from_momentum` calls it.
+///
+/// Parameters
+/// ----------
+/// scene : path_like
+///     Scene file.
+/// data : path_like
+///     CSV file or folder of a response log; the name of `text` in errors, if that is given.
+/// text : str or None
+///     Text of a CSV file.
+/// body : str or None
+///     Name of the body.
+/// flight : int
+///     Number of poses of the flights before and after a touch.
+/// clear : int
+///     Number of poses between a touch and each flight.
+/// longest : int
+///     Largest number of poses in a touch.
+/// near : float
+///     Distance from the other bodies below which a point may touch, m.
+/// apart : float
+///     Distance that all other points of the body keep in a touch, m.
+/// confidence : float
+///     Confidence of the interval.
+/// seed : int
+///     Seed of the bootstrap.
+/// allow_files_below : sequence of path_like
+///     Further folders from which models may read meshes.
+///
+/// Returns
+/// -------
+/// MomentumInertia
+#[pyfunction]
+#[expect(clippy::too_many_arguments, reason = "one function of Python calls it")]
+pub(crate) fn momentum_inertia(
+    py: Python<'_>,
+    scene: PathBuf,
+    data: PathBuf,
+    text: Option<String>,
+    body: Option<String>,
+    flight: usize,
+    clear: usize,
+    longest: usize,
+    near: f64,
+    apart: f64,
+    confidence: f64,
+    seed: u64,
+    allow_files_below: Vec<PathBuf>,
+) -> PyResult<MomentumInertia> {
+    let settings = MomentumSettings { body, flight, clear, longest, near, apart, confidence, seed };
+    let scene =
+        Scene::load(&scene).map_err(crate::errors::of_scene)?.with_extensions(extensions(allow_files_below));
+    let found = py.detach(|| {
+        let bodies = free_bodies(&scene)?;
+        let data = match &text {
+            Some(text) => parse(text, &data.display().to_string(), &bodies),
+            None => load(&data, &bodies),
+        };
+        inertia_from_momentum(&scene, &data?, &settings)
+    });
+    let found = found.map_err(|error| StudyError::new_err(error.0))?;
+    Ok(MomentumInertia {
+        page: found.markdown(),
+        body: found.body,
+        inertia: found.inertia,
+        interval: found.interval,
+        factor: found.factor,
+        slopes: found.slopes,
+        touches: found.touches,
+        notes: found.notes,
     })
 }

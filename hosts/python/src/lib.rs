@@ -88,6 +88,7 @@ fn _pong(module: &Bound<'_, PyModule>) -> PyResult<()> {
     add_class::<batch::BatchRuns>(module)?;
     add_class::<fit::Fit>(module)?;
     add_class::<fit::FitParameter>(module)?;
+    add_class::<fit::MomentumInertia>(module)?;
     add_class::<replay::Replay>(module)?;
     add_class::<trade::Trade>(module)?;
     add_class::<trade::Level>(module)?;
@@ -100,6 +101,7 @@ fn _pong(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(trade::trade, module)?)?;
     module.add_function(wrap_pyfunction!(tune::tune, module)?)?;
     module.add_function(wrap_pyfunction!(fit::identify, module)?)?;
+    module.add_function(wrap_pyfunction!(fit::momentum_inertia, module)?)?;
     module.add_function(wrap_pyfunction!(log::check_log, module)?)?;
     module.add_function(wrap_pyfunction!(authored::read_authored, module)?)?;
     module.add_function(wrap_pyfunction!(authored::parse_authored, module)?)?;

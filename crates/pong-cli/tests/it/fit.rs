@@ -70,6 +70,11 @@ fn wrong_arguments_and_data_are_refused() {
         (&["--data", "log", "--free", FREE], 1, "the noise of its sensor is not known"),
         (&["--data", "none.csv", "--free", FREE], 1, "name a CSV file or the folder"),
         (&["--data", "drop.ron", "--free", FREE], 1, "name columns among"),
+        (&["--data", "log"], 2, "--free <NAME[=LOW..HIGH]>"),
+        (&["--data", "log", "--momentum", "--free", FREE], 2, "cannot be used with"),
+        (&["--data", "log", "--free", FREE, "--body", "ball"], 2, "cannot be used with"),
+        (&["--data", "log", "--momentum"], 1, "0 touches of one point between two flights"),
+        (&["--data", "log", "--momentum", "--body", "ground"], 1, "name one of: ball"),
         (&["--data", "log", "--free", "surface.ball.hard.stiffness=1..2"], 1, "there is no such surface"),
     ];
     for (arguments, expected, part) in cases {

@@ -5,7 +5,12 @@
 //! interval the last two must give the change of the first. Contacts disturb few of the intervals, so the
 //! median over all of them judges.
 
+use super::interval::{Checked, Interval, intervals, median};
+use super::readings::{CLEARLY, Reading, orientations, readings};
 use super::record::{Data, Quantity, Record, Row};
+use crate::error::Result;
+use crate::probe::Probe;
+use pong_executive::scene::Scene;
 use pong_geometry::pose::rotation_vector;
 use pong_geometry::{Quat, Vec3};
 
@@ -24,23 +29,16 @@ const ENOUGH: usize = 8;
 /// Number of records whose first fall is enough to refuse a unit.
 const FALLS: usize = 4;
 
-/// Factor between the misses of two readings of a rotation at which the better one is believed.
-const CLEARLY: f64 = 3.0;
-
 /// Share of the rotation in an interval from which on a miss that no reading explains is noted.
 const MISSES: f64 = 0.5;
 
-/// Result of the checks: each line has thing, cause and cure.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Checked {
-    /// Faults: the data cannot be used as they are.
-    pub faults: Vec<String>,
-    /// Notes.
-    pub notes: Vec<String>,
-}
-
-/// Checks data of a scene with this gravity, m/s².
-pub fn check(data: &Data, gravity: &Vec3) -> Checked {
+/// Checks data of a scene.
+///
+/// # Errors
+/// A scene that cannot be built.
+pub fn check(data: &Data, scene: &Scene) -> Result<Checked> {
+    let mut simulation = scene.build()?.simulation;
+    let gravity = simulation.gravity();
     let mut checked = Checked::default();
     let mut bodies: Vec<&str> =
         data.records.iter().flat_map(|r| &r.rows).map(|row| row.body.as_str()).collect();
@@ -51,23 +49,26 @@ pub fn check(data: &Data, gravity: &Vec3) -> Checked {
         let pairs: Vec<Interval<'_>> =
             data.records.iter().flat_map(|record| intervals(record, body)).collect();
         velocity(body, &pairs, &mut checked);
-        rotation(body, &pairs, data.along_body, &mut checked);
-        falling(body, data, gravity, &mut checked);
+        falling(body, data, &gravity, &mut checked);
+        let turning: Vec<&Interval<'_>> = pairs.iter().filter(turns).collect();
+        let known = simulation.bodies().find(|(_, known)| known.name == body);
+        if turning.len() >= ENOUGH {
+            rotation(body, &turning, data.along_body, &mut checked);
+        } else if let Some((id, mass)) = known.and_then(|(id, body)| Some((id, *body.mass()?)))
+            && checked.faults.is_empty()
+            && pairs.iter().any(|(a, ..)| a.orientation.is_some())
+        {
+            let mut probe = Probe::new(&mut simulation, id);
+            orientations(body, &data.records, &pairs, &mass, &mut probe, &mut checked)?;
+        }
     }
-    checked
+    Ok(checked)
 }
 
-/// Two successive measurements of a body, and the time between them, s.
-type Interval<'a> = (&'a Row, &'a Row, f64);
-
-fn intervals<'a>(record: &'a Record, body: &'a str) -> impl Iterator<Item = Interval<'a>> {
-    let of_body = move || record.rows.iter().filter(move |row| row.body == body);
-    of_body().zip(of_body().skip(1)).map(|(a, b)| (a, b, record.times[b.time] - record.times[a.time]))
-}
-
-fn median(mut values: Vec<f64>) -> f64 {
-    values.sort_by(f64::total_cmp);
-    values.get(values.len() / 2).copied().unwrap_or(f64::NAN)
+/// Tests whether an interval has orientations and angular velocities, and turns enough to tell axes and orders apart.
+fn turns((a, b, dt): &&Interval<'_>) -> bool {
+    let both = a.orientation.is_some() && b.orientation.is_some();
+    both && a.angular_velocity.is_some_and(|w| w.norm() * dt > TURNS) && b.angular_velocity.is_some()
 }
 
 /// Rows in which something was measured: a line whose cells are empty is no measurement.
@@ -137,61 +138,7 @@ fn velocity(body: &str, pairs: &[Interval<'_>], checked: &mut Checked) {
     }
 }
 
-/// Another reading of a measured rotation than the one that the file states.
-#[derive(Clone, Copy)]
-struct Reading {
-    /// True if the components of the quaternion are x, y, z, w under the names of w, x, y, z.
-    reordered: bool,
-    /// True if the quaternion turns the common frame into the group frame.
-    inverse: bool,
-    /// True if the angular velocity is along the other axes.
-    other_axes: bool,
-}
-
-/// All readings; the first is that of the file.
-fn readings() -> [Reading; 8] {
-    std::array::from_fn(|bits| Reading {
-        other_axes: bits & 1 != 0,
-        reordered: bits & 2 != 0,
-        inverse: bits & 4 != 0,
-    })
-}
-
-impl Reading {
-    /// Orientation of the group in the common frame.
-    fn orientation(self, q: &Quat) -> Quat {
-        let [w, x, y, z] = if self.reordered { [q.k, q.w, q.i, q.j] } else { [q.w, q.i, q.j, q.k] };
-        let read = pong_geometry::Pose::new(Vec3::zeros(), [w, x, y, z]).orientation;
-        if self.inverse { read.inverse() } else { read }
-    }
-
-    /// Changes of the file that give this reading.
-    fn cures(self, along_body: bool) -> Vec<String> {
-        let mut cures = Vec::new();
-        if self.reordered {
-            let cure = "the quaternions are in the order x, y, z, w: name the columns qx,qy,qz,qw";
-            cures.push(cure.to_owned());
-        }
-        if self.inverse {
-            let cure = "the quaternions turn the common frame into that of the group: change the sign of qx, qy and qz";
-            cures.push(cure.to_owned());
-        }
-        if self.other_axes {
-            let axes = if along_body { "common" } else { "body" };
-            cures.push(format!(
-                "the angular velocity is along the other axes: write `# angular_velocity = {axes}`"
-            ));
-        }
-        cures
-    }
-}
-
-fn rotation(body: &str, pairs: &[Interval<'_>], along_body: bool, checked: &mut Checked) {
-    let turning = |(a, b, dt): &&Interval<'_>| {
-        let both = a.orientation.is_some() && b.orientation.is_some();
-        both && a.angular_velocity.is_some_and(|w| w.norm() * dt > TURNS) && b.angular_velocity.is_some()
-    };
-    let turning: Vec<&Interval<'_>> = pairs.iter().filter(turning).collect();
+fn rotation(body: &str, turning: &[&Interval<'_>], along_body: bool, checked: &mut Checked) {
     let known = [
         (180.0 / std::f64::consts::PI, "degrees/s"),
         (std::f64::consts::TAU, "turns/s"),
@@ -203,15 +150,6 @@ fn rotation(body: &str, pairs: &[Interval<'_>], along_body: bool, checked: &mut 
         (turned > 0.0).then(|| spun / turned)
     };
     let ratios: Vec<f64> = turning.iter().filter_map(ratio).collect();
-    if ratios.len() < ENOUGH {
-        if pairs.iter().any(|(a, ..)| a.orientation.is_some()) {
-            checked.notes.push(format!(
-                "data of body `{body}`: too few intervals with orientation and angular velocity turn enough to check the order of \
-                 the quaternion and the axes of the angular velocity"
-            ));
-        }
-        return;
-    }
     let ratio = median(ratios);
     let inverse = unit_of(1.0 / ratio, &known);
     if let Some(words) = unit_of(ratio, &known).or(inverse) {
@@ -233,7 +171,7 @@ fn rotation(body: &str, pairs: &[Interval<'_>], along_body: bool, checked: &mut 
              read in another way it misses by {:.3}°; {}",
             degrees(misses[0]),
             degrees(misses[best]),
-            readings[best].cures(along_body).join("; "),
+            readings[best].cures(along_body),
         ));
     } else if misses[0] > MISSES * turned {
         checked.notes.push(format!(

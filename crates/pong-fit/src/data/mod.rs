@@ -6,14 +6,19 @@
 //! | `csv.rs` | a text file read |
 //! | `log.rs` | a response log read |
 //! | `checks.rs` | gaps, units, order of quaternions, axes of angular velocities |
+//! | `interval.rs` | successive measurements |
+//! | `readings.rs` | order of quaternions without angular velocities |
 
 mod checks;
 mod csv;
+mod interval;
 mod log;
+mod readings;
 mod record;
 
-pub use checks::{Checked, check};
+pub use checks::check;
 pub use csv::parse;
+pub use interval::Checked;
 pub use record::{Data, Noise, Quantity, Record, Row};
 
 use crate::error::{FitError, Result};

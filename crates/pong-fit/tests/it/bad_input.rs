@@ -69,10 +69,12 @@ fn tossed(test: &str) -> (Scene, Data) {
     (scene, data)
 }
 
-const GRAVITY: Vec3 = Vec3::new(0.0, 0.0, -9.81);
+fn faults(scene: &Scene, data: &Data) -> String {
+    check(data, scene).unwrap().faults.join("\n")
+}
 
-fn faults(data: &Data) -> String {
-    check(data, &GRAVITY).faults.join("\n")
+fn noted(scene: &Scene, data: &Data) -> String {
+    check(data, scene).unwrap().notes.join("\n")
 }
 
 fn each(data: &Data, change: impl Fn(&mut pong_fit::Row)) -> Data {
@@ -83,58 +85,59 @@ fn each(data: &Data, change: impl Fn(&mut pong_fit::Row)) -> Data {
 
 #[test]
 fn units_are_told_by_kinematics() {
-    let (_, data) = tossed("units");
-    assert_eq!(faults(&data), "");
+    let (scene, data) = tossed("units");
+    assert_eq!(faults(&scene, &data), "");
     let millimetres = each(&data, |row| row.position = row.position.map(|p| p * 1e3));
-    assert!(faults(&millimetres).contains("positions in mm"), "{}", faults(&millimetres));
+    assert!(faults(&scene, &millimetres).contains("positions in mm"), "{}", faults(&scene, &millimetres));
     let degrees = each(&data, |row| row.angular_velocity = row.angular_velocity.map(|w| w * 57.29578));
-    assert!(faults(&degrees).contains("degrees/s"), "{}", faults(&degrees));
+    assert!(faults(&scene, &degrees).contains("degrees/s"), "{}", faults(&scene, &degrees));
     let mut late = data.clone();
     late.records.iter_mut().flat_map(|record| &mut record.times).for_each(|time| *time *= 1e3);
-    assert!(faults(&late).contains("times in ms"), "{}", faults(&late));
+    assert!(faults(&scene, &late).contains("times in ms"), "{}", faults(&scene, &late));
     let poses_alone = each(&data, |row| {
         (row.velocity, row.angular_velocity) = (None, None);
         row.position = row.position.map(|p| p * 1e3);
     });
-    assert!(faults(&poses_alone).contains("positions in mm"), "{}", faults(&poses_alone));
+    assert!(faults(&scene, &poses_alone).contains("positions in mm"), "{}", faults(&scene, &poses_alone));
 }
 
 #[test]
 fn order_of_quaternions_and_axes_of_angular_velocities_are_told() {
-    let (_, data) = tossed("orders");
-    let reorder = |row: &mut pong_fit::Row| {
-        row.orientation = row.orientation.map(|q| Pose::new(Vec3::zeros(), [q.i, q.j, q.k, q.w]).orientation);
-    };
+    let (scene, data) = tossed("orders");
     let along_body = |row: &mut pong_fit::Row| {
         row.angular_velocity = row.orientation.zip(row.angular_velocity).map(|(q, w)| q.inverse() * w);
     };
     let order = "the quaternions are in the order x, y, z, w";
     let axes = "write `# angular_velocity = body`";
-    let wrong_order = faults(&each(&data, reorder));
+    let wrong_order = faults(&scene, &each(&data, reordered));
     assert!(wrong_order.contains(order) && !wrong_order.contains(axes), "{wrong_order}");
-    let wrong_axes = faults(&each(&data, along_body));
+    let wrong_axes = faults(&scene, &each(&data, along_body));
     assert!(wrong_axes.contains(axes) && !wrong_axes.contains(order), "{wrong_axes}");
     let inverse = |row: &mut pong_fit::Row| row.orientation = row.orientation.map(|q| q.inverse());
-    let turned_back = faults(&each(&data, inverse));
+    let turned_back = faults(&scene, &each(&data, inverse));
     assert!(turned_back.contains("change the sign of qx, qy and qz"), "{turned_back}");
     assert!(!turned_back.contains(order) && !turned_back.contains(axes), "{turned_back}");
-    let both = faults(&each(&each(&data, along_body), reorder));
+    let both = faults(&scene, &each(&each(&data, along_body), reordered));
     assert!(both.contains(axes) && both.contains(order), "{both}");
     let mut said_body = each(&data, |row| {
         row.angular_velocity = row.orientation.zip(row.angular_velocity).map(|(q, w)| q * w);
     });
     said_body.along_body = true;
-    assert!(faults(&said_body).contains("write `# angular_velocity = common`"), "{}", faults(&said_body));
+    assert!(
+        faults(&scene, &said_body).contains("write `# angular_velocity = common`"),
+        "{}",
+        faults(&scene, &said_body)
+    );
 }
 
 #[test]
 fn an_angular_velocity_that_no_reading_explains_is_noted() {
-    let (_, data) = tossed("mounted_askew");
+    let (scene, data) = tossed("mounted_askew");
     let askew =
         each(&data, |row| row.angular_velocity = row.angular_velocity.map(|w| Vec3::new(w.y, w.z, w.x)));
-    let notes = check(&askew, &GRAVITY).notes.join("\n");
+    let notes = noted(&scene, &askew);
     assert!(notes.contains("no other order or axes fit"), "{notes}");
-    assert!(!check(&data, &GRAVITY).notes.join("\n").contains("no other order"));
+    assert!(!noted(&scene, &data).contains("no other order"));
 }
 
 #[test]
@@ -145,7 +148,7 @@ fn data_that_the_scene_cannot_have_made_are_noted() {
         row.position = row.position.map(|p| p * 1e3);
         row.velocity = row.velocity.map(|v| v * 1e3);
     });
-    assert!(faults(&millimetres).contains("positions in mm"), "records that begin with a fall");
+    assert!(faults(&scene, &millimetres).contains("positions in mm"), "records that begin with a fall");
     let late = Settings {
         free: vec![free("surface.cube.acrylic.friction.mu", None)],
         horizon: Some(0.05),
@@ -161,19 +164,19 @@ fn data_that_the_scene_cannot_have_made_are_noted() {
 
 #[test]
 fn gaps_are_noted() {
-    let (_, mut data) = tossed("gaps");
+    let (scene, mut data) = tossed("gaps");
     let mut emptied = data.clone();
     for row in emptied.records[3].rows.iter_mut().filter(|row| (8..12).contains(&row.time)) {
         (row.position, row.orientation, row.velocity, row.angular_velocity) = (None, None, None, None);
     }
-    let notes = check(&emptied, &GRAVITY).notes.join("\n");
+    let notes = noted(&scene, &emptied);
     assert!(notes.contains("record `3`: a gap of 0.0338 s"), "empty cells: {notes}");
     data.records[2].rows.retain(|row| !(8..12).contains(&row.time));
     for row in &mut data.records[2].rows {
         row.time -= if row.time >= 12 { 4 } else { 0 };
     }
     data.records[2].times.drain(8..12);
-    let notes = check(&data, &GRAVITY).notes.join("\n");
+    let notes = noted(&scene, &data);
     assert!(notes.contains("record `2`: a gap of 0.0338 s"), "{notes}");
 }
 
@@ -267,4 +270,63 @@ fn parameters_that_move_together_are_told() {
     let fit = fit(&scene, &data, &settings, &mut |_| ControlFlow::Continue(())).unwrap();
     let notes = fit.notes.join("\n");
     assert!(notes.contains("they move together"), "{notes} {:?}", fit.correlations);
+}
+
+/// Orientations with the quaternion's components x, y, z, w in the columns of w, x, y, z.
+fn reordered(row: &mut pong_fit::Row) {
+    row.orientation = row.orientation.map(|q| Pose::new(Vec3::zeros(), [q.i, q.j, q.k, q.w]).orientation);
+}
+
+fn turned_back(row: &mut pong_fit::Row) {
+    row.orientation = row.orientation.map(|q| q.inverse());
+}
+
+/// Poses of 20 tosses over a time, without velocities.
+fn poses(scene: &Scene, count: usize, height: f64) -> Data {
+    let mut starts = tosses(20, 4);
+    starts.iter_mut().for_each(|(pose, _)| pose.position.z += height);
+    let data = records(&mut Batch::new(scene, &[], 1).unwrap(), &[], &starts, &times(count, 1.0 / 148.0), 1);
+    each(&data, |row| (row.velocity, row.angular_velocity) = (None, None))
+}
+
+const ORDER: &str = "the quaternions are in the order x, y, z, w";
+const INVERSE: &str = "change the sign of qx, qy and qz";
+
+#[test]
+fn poses_alone_tell_the_order_of_their_quaternions_by_contacts() {
+    let scene = common::tossed("poses_in_contact");
+    let data = poses(&scene, 40, 0.0);
+    assert!(!noted(&scene, &data).contains("another reading"), "{}", noted(&scene, &data));
+    assert_eq!(faults(&scene, &data), "");
+    let wrong = faults(&scene, &each(&data, reordered));
+    assert!(
+        wrong.contains("sinks into others") && wrong.contains(ORDER) && !wrong.contains(INVERSE),
+        "{wrong}"
+    );
+    let wrong = faults(&scene, &each(&data, turned_back));
+    assert!(wrong.contains(INVERSE) && !wrong.contains(ORDER), "{wrong}");
+}
+
+#[test]
+fn poses_alone_tell_the_order_of_their_quaternions_by_free_flight() {
+    let scene = common::rod("poses_in_flight");
+    let data = poses(&scene, 40, 2.0);
+    assert_eq!(faults(&scene, &data), "");
+    let wrong = faults(&scene, &each(&data, reordered));
+    assert!(wrong.contains("the angular momentum changes by") && wrong.contains(ORDER), "{wrong}");
+    assert!(!noted(&scene, &data).contains("another reading"), "{}", noted(&scene, &data));
+}
+
+#[test]
+fn an_order_that_nothing_tells_is_noted() {
+    // Even rotations without a touch.
+    let scene = common::tossed("even_flight");
+    for data in [poses(&scene, 10, 2.0), each(&poses(&scene, 10, 2.0), reordered)] {
+        assert_eq!(faults(&scene, &data), "");
+        let notes = noted(&scene, &data);
+        assert!(
+            notes.contains("another reading") && notes.contains(ORDER) && notes.contains(INVERSE),
+            "{notes}"
+        );
+    }
 }

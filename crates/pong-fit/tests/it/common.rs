@@ -90,3 +90,10 @@ pub fn tossed(test: &str) -> Scene {
     let head = "gravity: (0, 0, -9.81), integrator: RungeKutta4, step: 5e-4, duration: 0.4";
     written(test, "cube", &cube(), &scene("cube", body, head))
 }
+
+/// The cube with the inertia of a rod.
+pub fn rod(test: &str) -> Scene {
+    let body = "motion: Free, mass: 0.4, inertia: Diagonal(7e-4, 7e-4, 1e-4), position: (0, 0, 0.12)";
+    let head = "gravity: (0, 0, -9.81), integrator: RungeKutta4, step: 5e-4, duration: 0.4";
+    written(test, "cube", &cube(), &scene("cube", body, head))
+}

@@ -3,5 +3,6 @@
 mod bad_input;
 mod batch;
 mod common;
+mod momentum;
 mod recovery;
 mod synthetic;

@@ -202,9 +202,12 @@ struct Covered {
     bootstrap: [u64; 2],
 }
 
-/// Number of logs for coverages.
-fn logs() -> u64 {
-    std::env::var("PONG_FIT_LOGS").ok().and_then(|count| count.parse().ok()).unwrap_or(1000)
+/// Numbers of the logs for coverages: COUNT or FIRST..END in `PONG_FIT_LOGS`; each number is the seed of its log.
+fn logs() -> std::ops::Range<u64> {
+    let text = std::env::var("PONG_FIT_LOGS").unwrap_or_else(|_| "1000".to_owned());
+    let (first, end) = text.split_once("..").unwrap_or(("0", &text));
+    let number = |text: &str| text.parse().expect("PONG_FIT_LOGS is COUNT or FIRST..END");
+    number(first)..number(end)
 }
 
 /// Synthetic logs of a ball.
@@ -227,7 +230,7 @@ fn covered(logs_of: &Logs) -> Covered {
     let names: Vec<String> = names.iter().map(ToString::to_string).collect();
     let mut batch = Batch::new(&scene, &names, 2).unwrap();
     let mut covered = Covered::default();
-    for log in 0..logs() {
+    for log in logs() {
         let start = |number: u64| {
             let mut random = Random::new(log, 9, number);
             let pose = Pose { position: Vec3::new(0.0, 0.0, 0.105), ..Pose::identity() };
@@ -271,7 +274,7 @@ fn covered(logs_of: &Logs) -> Covered {
 
 /// True if a count of logs is 93 to 97 % of all.
 fn honest(count: u64) -> bool {
-    (0.93..=0.97).contains(&(count as f64 / logs() as f64))
+    (0.93..=0.97).contains(&(count as f64 / logs().count() as f64))
 }
 
 #[test]

@@ -19,9 +19,8 @@ from enum import IntFlag
 from typing import TYPE_CHECKING, Any
 
 from . import model, types
-from ._fit import fit, plot_fit
+from ._fit import fit, inertia_from_momentum, plot_fit
 from ._log import Log
-from ._momentum import inertia_from_momentum
 from ._pong import (
     CONTACT_DTYPE,
     BadValueError,

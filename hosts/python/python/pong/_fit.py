@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ._pong import BadValueError, identify
+from ._pong import BadValueError, identify, momentum_inertia
 
 if TYPE_CHECKING:
-    from .types import Fit
+    from .types import Fit, MomentumInertia
 
 _COLUMNS = {
     "position": ("x", "y", "z"),
@@ -65,6 +65,17 @@ def _text(data: Mapping[str, Any], axes: str) -> str:
     for row in range(count):
         out.write(",".join(cells[row] for _, cells in columns) + "\n")
     return out.getvalue()
+
+
+def _source(data: Any, axes: str) -> tuple[str, str | None]:
+    """Name of a file, or of the data in errors, and the text that takes its place."""
+    if isinstance(data, Mapping):
+        return "data", _text(data, axes)
+    name = os.fspath(data)
+    if not name.endswith(".npz"):
+        return name, None
+    with np.load(name) as arrays:
+        return name, _text(dict(arrays), axes)
 
 
 def fit(
@@ -139,20 +150,73 @@ def fit(
     BadValueError
         An array has another shape.
     """
-    text, name = None, "data"
-    if isinstance(data, Mapping):
-        text = _text(data, angular_velocity_axes)
-    elif os.fspath(data).endswith(".npz"):
-        name = os.fspath(data)
-        with np.load(name) as arrays:
-            text = _text(dict(arrays), angular_velocity_axes)
-    else:
-        name = os.fspath(data)
+    name, text = _source(data, angular_velocity_axes)
     named = dict(free) if isinstance(free, Mapping) else dict.fromkeys(free)
     bounds = [(key, None if ends is None else (float(ends[0]), float(ends[1]))) for key, ends in named.items()]
     return identify(
         scene, name, text, bounds, dict(noise or {}), list(of), begin, horizon, test, confidence, measured_starts, profiles,
         tries, seed, threads or 0, output, list(allow_files_below),
+    )
+
+
+def inertia_from_momentum(
+    scene: str | os.PathLike[str],
+    data: str | os.PathLike[str] | Mapping[str, Any],
+    *,
+    body: str | None = None,
+    flight: int = 5,
+    clear: int = 1,
+    longest: int = 4,
+    near: float = 1e-3,
+    apart: float = 15e-3,
+    confidence: float = 0.95,
+    seed: int = 0,
+    allow_files_below: Sequence[str | os.PathLike[str]] = (),
+) -> "MomentumInertia":
+    """Finds the inertia of a free body from touches at a single point between two flights: `pong fit --momentum`.
+
+    No law of contact takes part. Mass, mass centre, gravity, geometry and the ratios of the principal moments are those of
+    the scene; stiffness, damping and friction have no effect. The other bodies stay where the scene has them.
+
+    Parameters
+    ----------
+    scene : path_like
+        Scene file.
+    data : path_like or Mapping
+        Positions and orientations in a file or in arrays, as `fit` takes them.
+    body : str, optional
+        Name of the body; not needed if one body is free.
+    flight : int, default 5
+        Number of poses of the flights before and after a touch.
+    clear : int, default 1
+        Number of poses between a touch and each flight.
+    longest : int, default 4
+        Largest number of poses in a touch.
+    near : float, default 1e-3
+        Distance from the other bodies below which a point may touch, m.
+    apart : float, default 15e-3
+        Distance that all other points of the body keep in a touch, m.
+    confidence : float, default 0.95
+        Confidence of the interval.
+    seed : int, default 0
+        Seed of the bootstrap.
+    allow_files_below : sequence of path_like, optional
+        Further folders from which models may read meshes.
+
+    Returns
+    -------
+    MomentumInertia
+
+    Raises
+    ------
+    StudyError
+        A name, a setting or the data cannot be used, there are too few touches, or the body has unlike principal moments.
+    BadValueError
+        An array has another shape.
+    """
+    name, text = _source(data, "common")
+    return momentum_inertia(
+        scene, name, text, body, flight, clear, longest, near, apart, confidence, seed, list(allow_files_below)
     )
 
 

@@ -27,6 +27,7 @@ __all__ = [
     "LogError",
     "Model",
     "ModelError",
+    "MomentumInertia",
     "NotFiniteError",
     "NotFoundError",
     "Object",
@@ -58,6 +59,7 @@ __all__ = [
     "identify",
     "join_models",
     "model_schema",
+    "momentum_inertia",
     "parse_authored",
     "read_authored",
     "replay",
@@ -534,6 +536,28 @@ class FitParameter:
     def value(self) -> float: ...
 
 @final
+class MomentumInertia:
+    @property
+    def body(self) -> str: ...
+    @property
+    def factor(self) -> float: ...
+    @property
+    def inertia(self) -> float: ...
+    @property
+    def interval(self) -> tuple[float, float]: ...
+    @property
+    def notes(self) -> list[str]: ...
+    @property
+    def page(self) -> str: ...
+    @property
+    def slopes(self) -> tuple[float, float]: ...
+    @property
+    def touches(self) -> int: ...
+    def __eq__(self, other: object, /) -> bool: ...
+    __hash__ = None  # type: ignore[assignment]
+    def __ne__(self, other: object, /) -> bool: ...
+
+@final
 class Replay:
     @property
     def agrees(self) -> bool: ...
@@ -697,6 +721,21 @@ def identify(
     output: _Path | None,
     allow_files_below: Sequence[_Path],
 ) -> Fit: ...
+
+def momentum_inertia(
+    scene: _Path,
+    data: _Path,
+    text: str | None,
+    body: str | None,
+    flight: int,
+    clear: int,
+    longest: int,
+    near: float,
+    apart: float,
+    confidence: float,
+    seed: int,
+    allow_files_below: Sequence[_Path],
+) -> MomentumInertia: ...
 
 def check_log(folder: _Path) -> tuple[bool, int]: ...
 

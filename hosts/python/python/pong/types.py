@@ -12,7 +12,6 @@
 | `Case` with `Row` | `verify` |
 """
 
-from ._momentum import MomentumInertia
 from ._pong import (
     AddedModel,
     BatchRuns,
@@ -24,6 +23,7 @@ from ._pong import (
     FrameReport,
     Interface,
     Level,
+    MomentumInertia,
     Object,
     Pair,
     PairPeaks,
