@@ -2,6 +2,7 @@
 
 use crate::energy::Energy;
 use crate::left_out::LeftOut;
+use crate::missed::{deep_in_mesh_in_words, tunnelling_in_words};
 use crate::simulation::Simulation;
 use pong_engine::{Contact, InterfaceId, StatusBits};
 use pong_geometry::{Vec3, Wrench};
@@ -79,13 +80,13 @@ impl RunStatistics {
         if report.status.contains(StatusBits::TUNNELLED) {
             self.tunnelled += 1;
             if self.tunnelled == 1 {
-                self.first_tunnelled = tunnelling_in_words(simulation).unwrap_or_default();
+                self.first_tunnelled = at_time(tunnelling_in_words(world), simulation);
             }
         }
         if report.status.contains(StatusBits::DEEP_IN_MESH) {
             self.deep_in_mesh += 1;
             if self.deep_in_mesh == 1 {
-                self.first_deep_in_mesh = deep_in_mesh_in_words(simulation).unwrap_or_default();
+                self.first_deep_in_mesh = at_time(deep_in_mesh_in_words(world), simulation);
             }
         }
         self.left_out = self.left_out.max(LeftOut::of(world));
@@ -150,21 +151,9 @@ impl RunStatistics {
     }
 }
 
-/// The tunnelling in words: element, body and time.
-fn tunnelling_in_words(simulation: &Simulation) -> Option<String> {
-    let world = simulation.world();
-    let passage = world.tunnelling()?;
-    let element = world.scene().primitive_path(passage.interface, passage.primitive).ok()?;
-    let through = world.scene().interface_path(passage.through).ok()?;
-    Some(format!("`{element}` through `{through}` at {} s", simulation.time()))
-}
-
-/// A solid deep in a mesh, in words: the two bodies and the time.
-fn deep_in_mesh_in_words(simulation: &Simulation) -> Option<String> {
-    let world = simulation.world();
-    let deep = world.deep_in_mesh()?;
-    let [other, mesh] = [deep.other, deep.mesh].map(|id| world.scene().interface_name(id).ok());
-    Some(format!("`{}` in `{}` at {} s", other?, mesh?, simulation.time()))
+/// A warning in words, with the time of the simulation.
+fn at_time(words: Option<String>, simulation: &Simulation) -> String {
+    words.map(|words| format!("{words} at {} s", simulation.time())).unwrap_or_default()
 }
 
 impl BodyStatistics {

@@ -5,13 +5,13 @@
 //!
 //! A refused call leaves the instance unchanged.
 
+use crate::flags::{Flags, Warnings};
 use crate::refusal::Refusal;
 use crate::unit::Unit;
 use crate::variables::{
     Causality, Flag, Input, MOTION_NUMBERS, Parameter, Slot, WRENCH_NUMBERS, motion_numbers,
 };
-use pong_engine::StatusBits;
-use pong_executive::{ExecutiveError, LeftOut, Pose, Simulation, Twist, Vec3, Wrench};
+use pong_executive::{ExecutiveError, Pose, Simulation, Twist, Vec3, Wrench};
 
 /// Largest deviation of a quaternion's norm from 1, as in the engine.
 const NORM_ERROR_MAX: f64 = 1e-3;
@@ -58,14 +58,6 @@ impl Mode {
     }
 }
 
-/// Flags that change only at events.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(crate) struct Flags {
-    pub touching: bool,
-    pub tunnelled: bool,
-    pub left_out: bool,
-}
-
 /// Summary of the contacts.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Summary {
@@ -104,9 +96,7 @@ pub(crate) struct Instance {
     /// The flags after the next event.
     pub(crate) next_flags: Flags,
     /// Flags already warned of in this run.
-    warned: Flags,
-    /// The frame of this run that left contacts out with the largest advised capacity.
-    left_out: Option<LeftOut>,
+    warned: Warnings,
     /// Warnings to be logged.
     pub(crate) warnings: Vec<String>,
     /// Saved instant before a step that may fail.
@@ -136,8 +126,7 @@ impl Instance {
             means: Vec::new(),
             flags: Flags::default(),
             next_flags: Flags::default(),
-            warned: Flags::default(),
-            left_out: None,
+            warned: Warnings::default(),
             warnings,
             undo: Vec::new(),
             unit,
@@ -155,7 +144,7 @@ impl Instance {
         (self.mode, self.time) = (Mode::Instantiated, 0.0);
         (self.is_current, self.inputs_changed, self.summary) = (false, true, None);
         self.means.clear();
-        (self.flags, self.next_flags, self.warned, self.left_out) = Default::default();
+        (self.flags, self.next_flags, self.warned) = Default::default();
         Ok(())
     }
 
@@ -213,6 +202,7 @@ impl Instance {
             Slot::Flag(Flag::Touching) => self.flags.touching,
             Slot::Flag(Flag::Tunnelled) => self.flags.tunnelled,
             Slot::Flag(Flag::LeftOut) => self.flags.left_out,
+            Slot::Flag(Flag::DeepInMesh) => self.flags.deep_in_mesh,
             _ => unreachable!("only flags are left"),
         })
     }
@@ -471,34 +461,12 @@ impl Instance {
     }
 
     fn frame_flags(&mut self) -> Flags {
-        let world = self.unit.simulation.world();
-        let report = world.report();
-        self.left_out = self.left_out.max(LeftOut::of(world));
-        Flags {
-            touching: report.contacts > 0,
-            tunnelled: report.status.contains(StatusBits::TUNNELLED),
-            left_out: report.status.leaves_contacts_out(),
-        }
+        self.warned.flags_of(self.unit.simulation.world())
     }
 
     /// Warns, once in a run, of missed contacts.
     fn warn_of(&mut self, flags: Flags) {
-        let time = self.time;
-        if flags.tunnelled && !self.warned.tunnelled {
-            self.warned.tunnelled = true;
-            self.warnings.push(format!(
-                "contact: at t = {time} s something went through something else between two steps; make the steps shorter, \
-                 the walls thicker or the surfaces stiffer"
-            ));
-        }
-        if let Some(left_out) = self.left_out.filter(|_| flags.left_out && !self.warned.left_out) {
-            self.warned.left_out = true;
-            self.warnings.push(format!(
-                "contact: at t = {time} s {left_out}; write `contact_capacity: {}` into the scene and make the FMU again{}",
-                left_out.advised,
-                left_out.again()
-            ));
-        }
+        self.warnings.extend(self.warned.due(flags, self.time));
     }
 
     // ---- Model Exchange
@@ -690,9 +658,7 @@ impl Instance {
             impulses.add(&self.unit.simulation);
         }
         let now = self.frame_flags();
-        flags.touching = now.touching;
-        flags.tunnelled |= now.tunnelled;
-        flags.left_out |= now.left_out;
+        flags.join(now);
         Ok(())
     }
 

@@ -20,6 +20,7 @@
 mod c;
 mod contents;
 mod description;
+mod flags;
 mod instance;
 mod library;
 mod load;

@@ -6,7 +6,8 @@
 //! | checksum 8 (FNV-1a of everything before)
 //! ```
 
-use crate::instance::{Flags, Instance, Kind, Mode, Summary};
+use crate::flags::Flags;
+use crate::instance::{Instance, Kind, Mode, Summary};
 use crate::refusal::Refusal;
 use pong_executive::{Vec3, Wrench};
 use pong_model::Fnv;
@@ -140,11 +141,17 @@ struct State<'b> {
 }
 
 fn bits(flags: Flags) -> u8 {
-    u8::from(flags.touching) | u8::from(flags.tunnelled) << 1 | u8::from(flags.left_out) << 2
+    let Flags { touching, tunnelled, left_out, deep_in_mesh } = flags;
+    u8::from(touching) | u8::from(tunnelled) << 1 | u8::from(left_out) << 2 | u8::from(deep_in_mesh) << 3
 }
 
 fn of_bits(bits: u8) -> Flags {
-    Flags { touching: bits & 1 != 0, tunnelled: bits & 2 != 0, left_out: bits & 4 != 0 }
+    Flags {
+        touching: bits & 1 != 0,
+        tunnelled: bits & 2 != 0,
+        left_out: bits & 4 != 0,
+        deep_in_mesh: bits & 8 != 0,
+    }
 }
 
 fn word(out: &mut Vec<u8>, value: u64) {

@@ -52,6 +52,7 @@ pub(crate) enum Flag {
     Touching,
     Tunnelled,
     LeftOut,
+    DeepInMesh,
 }
 
 /// Meaning of a parameter.
@@ -142,6 +143,11 @@ impl Variables {
             "left_out",
             "Whether contacts were left out of the last step because the contact capacity is too small",
             Slot::Flag(Flag::LeftOut),
+        );
+        flag(
+            "deep_in_mesh",
+            "Whether a solid was deeper in a mesh than its facets push in the last step",
+            Slot::Flag(Flag::DeepInMesh),
         );
         flag("count", "Number of contacts; no integer, for those change at events alone", Slot::Count);
         let depth = "Largest depth of a contact";

@@ -1,6 +1,7 @@
 //! Report of a frame.
 
-use pong_engine::{Continuation, EngineError, World};
+use pong_engine::{Continuation, World};
+use pong_executive::tunnelling_in_words;
 use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyDict};
 
@@ -52,10 +53,8 @@ pub(crate) fn continued<'py>(py: Python<'py>, of: &Continuation) -> PyResult<Bou
     Ok(told)
 }
 
-/// Description of a tunnelling event since the last commit.
-pub(crate) fn tunnelling(world: &World) -> Result<Option<String>, EngineError> {
-    let Some(event) = world.tunnelling() else { return Ok(None) };
-    let path = world.scene().primitive_path(event.interface, event.primitive)?;
-    let through = world.scene().interface_name(event.through)?;
-    Ok(Some(format!("`{path}` through `{through}` (1 of {})", event.count)))
+/// Description of the first tunnelling event since the last commit, with the number of events.
+pub(crate) fn tunnelling(world: &World) -> Option<String> {
+    let event = world.tunnelling()?;
+    Some(format!("{} (1 of {})", tunnelling_in_words(world)?, event.count))
 }

@@ -86,6 +86,11 @@ pub(crate) fn objects(scene: &Scene) -> PyResult<Vec<Object>> {
     scene.objects().map(object).collect()
 }
 
+/// All models of a world.
+pub(crate) fn models(scene: &Scene) -> Vec<AddedModel> {
+    scene.models().map(|(id, model)| AddedModel { id, name: model.name.clone() }).collect()
+}
+
 /// Error for a number that no Interface of a world has.
 pub(crate) fn no_interface(number: usize, count: usize) -> PyErr {
     let cause = format!("there is no Interface {number}, the world has {count}");

@@ -44,6 +44,8 @@ pub(crate) struct Run {
     worst_balance: f64,
     /// int : Steps in which a primitive tunnelled through another.
     tunnelled: u64,
+    /// int : Steps in which a solid was deeper in a mesh than the regions below its facets.
+    deep_in_mesh: u64,
     /// list of str : Warnings of `pong run` after a run.
     warnings: Vec<String>,
     /// bool : True if `stop` ended it.
@@ -158,6 +160,7 @@ impl Run {
             energy: energies(py, &statistics.last_energy)?.unbind(),
             worst_balance: statistics.worst_balance,
             tunnelled: statistics.tunnelled,
+            deep_in_mesh: statistics.deep_in_mesh,
             warnings: warnings.collect(),
             stopped: kept.stopped,
         })

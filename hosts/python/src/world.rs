@@ -14,6 +14,7 @@ use crate::{advice, contacts, recording};
 use numpy::PyArray1;
 use pong_advise::StepPlan;
 use pong_engine::{FrictionPreload, PairMonitor};
+use pong_executive::deep_in_mesh_in_words;
 use pong_record::{RecordOptions, Recorder, WhenFull};
 use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyBytes, PyDict};
@@ -90,9 +91,7 @@ impl World {
     /// list of AddedModel : All models.
     #[getter]
     fn models(&self) -> PyResult<Vec<AddedModel>> {
-        let inner = self.lock()?;
-        let models = inner.world.scene().models();
-        Ok(models.map(|(id, model)| AddedModel { id, name: model.name.clone() }).collect())
+        Ok(ids::models(self.lock()?.world.scene()))
     }
 
     /// int : Most contacts of a frame.
@@ -146,13 +145,8 @@ impl World {
     /// str
     ///     `object/path`.
     fn primitive_path(&self, interface: usize, primitive: u32) -> PyResult<String> {
-        let Some(id) = self.ids.get(interface) else {
-            return Err(ids::no_interface(interface, self.ids.len()));
-        };
-        let inner = self.lock()?;
-        let path = inner.world.scene().primitive_path(*id, primitive).map_err(of_engine)?;
-        let object = self.interfaces[interface].name.split('/').next().unwrap_or_default();
-        Ok(format!("{object}/{path}"))
+        let id = self.ids.get(interface).ok_or_else(|| ids::no_interface(interface, self.ids.len()))?;
+        self.lock()?.world.scene().primitive_name(*id, primitive).map_err(of_engine)
     }
 
     /// Sets the states of all or some Interfaces. If any is refused, none is set.
@@ -532,9 +526,19 @@ impl World {
     /// Returns
     /// -------
     /// str or None
-    ///     The event; None if there was none.
+    ///     Primitive and what it passed through, each as `object/path`; None if there was none.
     fn tunnelling(&self) -> PyResult<Option<String>> {
-        frame_report::tunnelling(&self.lock()?.world).map_err(of_engine)
+        Ok(frame_report::tunnelling(&self.lock()?.world))
+    }
+
+    /// Names a solid that is so deep in a mesh in the last frame that the force does not grow as it should.
+    ///
+    /// Returns
+    /// -------
+    /// str or None
+    ///     The solid and the mesh, each as `object/path`; None if there is none.
+    fn deep_in_mesh(&self) -> PyResult<Option<String>> {
+        Ok(deep_in_mesh_in_words(&self.lock()?.world))
     }
 
     /// Returns the committed contact state.
@@ -780,7 +784,7 @@ impl World {
     fn log_frame(&self, py: Python<'_>, time: f64) -> PyResult<()> {
         let mut inner = self.lock()?;
         let Inner { world, recorder, .. } = &mut **inner;
-        recording::record(py, recorder.as_mut().ok_or_else(no_log)?, world, time)
+        recording::record(py, recorder.as_mut().ok_or_else(recording::none_open)?, world, time)
     }
 
     /// Writes the remaining data and closes the log.
@@ -790,11 +794,7 @@ impl World {
     /// int
     ///     Number of frames in the log.
     fn stop_log(&self, py: Python<'_>) -> PyResult<u64> {
-        let recorder = self.lock()?.recorder.take().ok_or_else(no_log)?;
+        let recorder = self.lock()?.recorder.take().ok_or_else(recording::none_open)?;
         recording::finish(py, recorder)
     }
-}
-
-fn no_log() -> PyErr {
-    PhaseError::new_err("log: none is open; call start_log first")
 }

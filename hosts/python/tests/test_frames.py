@@ -347,6 +347,41 @@ def test_what_is_left_out_is_told():
     assert (report.contacts, report.contacts_wanted) == (1, 2)
 
 
+def test_tunnelling_and_depth_in_meshes_are_told_by_name():
+    plate = """(format: "pong-model", version: 1, name: "plate", surfaces: { "s": (stiffness: 1e5) },
+        root: (name: "plate", surface: "s", primitives: [TriangleMesh(name: "top", thickness: 0.01, vertices: [
+            (-1, -1, 0), (1, -1, 0), (0, 1, 0)], triangles: [(0, 1, 2)])]))"""
+    # A step in a block: the prism of an L with an arm of 0.06 m, so that its facets push down to 0.03 m.
+    outline = [(-0.1, -0.06), (0.1, -0.06), (0.1, 0), (0, 0), (0, 0.06), (-0.1, 0.06)]
+    vertices = [(x, y, z) for y in (-0.08, 0.08) for x, z in outline]
+    ends = [(0, 1, 2), (0, 2, 3), (0, 3, 5), (3, 4, 5)]
+    sides = [t for a in range(6) for b in [(a + 1) % 6] for t in ((a, a + 6, b + 6), (a, b + 6, b))]
+    triangles = ends + [(a + 6, c + 6, b + 6) for a, b, c in ends] + sides
+    block = f"""(format: "pong-model", version: 1, name: "l", surfaces: {{ "s": (stiffness: 1e5) }},
+        root: (name: "l", surface: "s", contact: Solid, primitives: [
+            TriangleMesh(name: "mesh", vertices: {vertices}, triangles: {triangles})]))"""
+
+    def two(first, second):
+        made = pong.WorldBuilder()
+        for name, text in (("first", first), ("second", second)):
+            made.create_object(made.add_model(pong.Model.parse(text)), name)
+        made.pair("first", "second")
+        return made.seal()
+
+    def at(w, z):
+        w.set_states(states(((0, 0, z), (0,) * 3, (0,) * 3), ((0,) * 3, (0,) * 3, (0,) * 3)))
+        return w.step()
+
+    w = two(BALL, plate)
+    assert at(w, 0.5).is_complete and w.tunnelling() is None
+    assert pong.Status(at(w, -0.5).status) == pong.Status.TUNNELLED
+    assert w.tunnelling() == "`first/ball/shell` through `second/plate` (1 of 1)"
+    w = two(block, block)
+    assert at(w, 0.119).is_complete and w.deep_in_mesh() is None
+    assert pong.Status(at(w, 0.08).status) == pong.Status.DEEP_IN_MESH
+    assert w.deep_in_mesh() == "`second/l` in `first/l`"
+
+
 def test_workers_change_no_bit():
     assert np.array_equal(slide(world(workers=1), 5), slide(world(), 5))
 

@@ -197,6 +197,17 @@ impl Scene {
         Ok(&info.ok_or_else(|| unknown("primitive"))?.path)
     }
 
+    /// `object/path` of a primitive, given its index in the movable group's list, as used in messages.
+    ///
+    /// # Errors
+    /// [`EngineError::UnknownId`] for an Interface that this scene did not give out, or an index beyond the
+    /// list.
+    pub fn primitive_name(&self, interface: InterfaceId, primitive: u32) -> Result<String, EngineError> {
+        let object = self.bodies[self.body_index(interface)?].object;
+        let path = self.primitive_path(interface, primitive)?;
+        Ok(format!("{}/{path}", self.objects[object].name))
+    }
+
     /// Pose at which the model's author placed a movable group, m, in the frame of the root group; identity
     /// for the root.
     ///

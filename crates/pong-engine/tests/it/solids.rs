@@ -5,7 +5,7 @@ use super::common::Rig;
 use pong_engine::{Config, Contact, State, World};
 use pong_geometry::{Pose, Quat, Twist, Vec3, Wrench};
 use pong_testkit::Random;
-use pong_testkit::ron::box_polyhedron;
+use pong_testkit::ron::{box_polyhedron, carried_box};
 use pong_testkit::{long_samples, samples};
 
 pub const SOFT: &str = "stiffness: 1e5, foundation: 2e7, friction: None";
@@ -396,6 +396,64 @@ fn body_that_rolls_on_a_thin_sheet_forgets_its_own_side() {
         let at_origin = got.moment - expected.moment;
         let apart = (got.force - expected.force).norm() + at_origin.norm() / half;
         assert!(apart <= 1e-9 * expected.force.norm(), "{step}: {got:?} for {expected:?}");
+    }
+}
+
+/// Two sheets of the same thickness, of which one is turned until its edge is 0.7 mm deep in the other one, of 2 mm: the flat one keeps
+/// its side of entry and the turned one takes it, in either order and with vertices that are turned and rounded.
+#[test]
+fn side_of_entry_of_equally_thin_sheets_depends_on_no_order_and_no_rounding() {
+    let half = [0.05, 0.05, 0.001];
+    let sheet = remembering(&block(SOFT, [0.1, 0.1, 0.001]));
+    let mut plain = Pair::new(&block(SOFT, half), &block(SOFT, [0.1; 3]));
+    let flat = pose([0.07, 0.0, 0.00195], [0.0; 3]);
+    for degrees in [75.0_f64, 82.0, 89.0, 100.0] {
+        let angle = degrees.to_radians();
+        let reach = 0.05 * angle.sin() + 0.001 * angle.cos().abs();
+        let turned = |lift: f64| pose([0.0, 0.0, lift + reach - 7e-4], [0.0, angle, 0.0]);
+        let (expected, _) = plain.at(&turned(0.1));
+        let size = expected.force.norm();
+        for axes in [[0.0; 3], [0.3, -0.5, 0.9], [-1.1, 0.4, 0.2]] {
+            // The sheet in a group whose axes are turned.
+            let (group, to_group) = (pose([0.0; 3], axes), pose([0.0; 3], axes).inverse().orientation);
+            let corners = carried_box("box", [Vec3::zeros(), half.into()], "", |corner| to_group * corner);
+            let other = remembering(&solid(SOFT, &corners));
+            let [mut first, mut second] = [Pair::new(&other, &sheet), Pair::new(&sheet, &other)];
+            let at = flat.compose(&group);
+            first.at(&at);
+            second.at(&at.inverse());
+            first.world.commit().unwrap();
+            second.world.commit().unwrap();
+            let at = turned(0.001).compose(&group);
+            let (got, _) = first.at(&at);
+            let apart = (got.force - expected.force).norm() + (got.moment - expected.moment).norm() / 0.05;
+            assert!(apart <= 1e-9 * size, "{degrees}°, {axes:?}: {got:?} for {expected:?}");
+            let opposite = -(at.orientation * second.at(&at.inverse()).0.force);
+            assert!(
+                (opposite - got.force).norm() <= 1e-9 * size,
+                "{degrees}°, {axes:?}: {opposite} for {got:?}"
+            );
+        }
+    }
+}
+
+/// Two equal sheets that lie on each other and are then turned by opposite angles, deep and shallow: they are mirror images,
+/// so that the force is along the normal of the mirror.
+#[test]
+fn side_of_entry_of_mirrored_sheets_has_no_preference() {
+    let sheet = remembering(&block(SOFT, [0.05, 0.05, 0.001]));
+    for (degrees, depth) in [(8.0_f64, 1e-4), (20.0, 3e-4), (20.0, 1.5e-3), (50.0, 7e-4), (50.0, 1.9e-3)] {
+        let mut pair = Pair::new(&sheet, &sheet);
+        pair.at(&pose([0.0, 0.0, 0.00195], [0.0; 3]));
+        pair.world.commit().unwrap();
+        // Sheet A at (0, 0, h) turned by the angle, B at (0, 0, -h) turned back, seen from B.
+        let angle = degrees.to_radians();
+        let height = 0.05 * angle.sin() + 0.001 * angle.cos() - 0.5 * depth;
+        let [a, b] = [1.0, -1.0].map(|side| pose([0.0, 0.0, side * height], [0.0, side * angle, 0.0]));
+        let (wrench, _) = pair.at(&b.inverse().compose(&a));
+        let force = b.orientation * wrench.force;
+        assert!(force.z > 0.0, "{degrees}°, {depth} m: {force}");
+        assert!(force.xy().norm() <= 1e-9 * force.z, "{degrees}°, {depth} m: {force}");
     }
 }
 

@@ -125,14 +125,9 @@ impl Simulation {
                 let ratio = springs.tangential.damping / springs.tangential.stiffness;
                 linear.least_ratio = linear.least_ratio.min(ratio);
             }
-            let name = |side: &pong_engine::ContactSide| {
-                let object = scene.object_name(side.object)?;
-                Ok::<_, EngineError>(format!(
-                    "{object}/{}",
-                    scene.primitive_path(side.interface, side.primitive)?
-                ))
-            };
-            let name = format!("{} · {}", name(&contact.a)?, name(&contact.b)?);
+            let [a, b] =
+                [&contact.a, &contact.b].map(|side| scene.primitive_name(side.interface, side.primitive));
+            let name = format!("{} · {}", a?, b?);
             let along = contact.normal * contact.normal.transpose();
             let spring =
                 along * springs.normal.stiffness + (Mat3::identity() - along) * springs.tangential.stiffness;

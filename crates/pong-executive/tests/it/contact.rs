@@ -1,7 +1,10 @@
 //! Contact of bodies: executive and engine together.
 
+use crate::common::simulation_of_balls;
 use pong_engine::Config;
-use pong_executive::{BodyId, Integrator, MassProperties, Pose, RigidBody, Simulation, Twist, Vec3};
+use pong_executive::{
+    BodyId, Integrator, MassProperties, Pose, RigidBody, RunStatistics, Simulation, Twist, Vec3,
+};
 use pong_testkit::worlds::paired_with_first;
 
 const G: f64 = 9.81;
@@ -235,4 +238,26 @@ fn a_deep_start_is_noted_and_a_rest_is_not() {
     assert!(parts.iter().all(|part| note.contains(part)), "{note}");
     assert!(notes(-9.81e-5, 0.0).is_empty() && notes(-1.2e-4, 0.0).is_empty(), "it rests");
     assert!(notes(-1e-2, 5.0).is_empty() && notes(1.0, 0.0).is_empty());
+}
+
+/// Two balls of one model pass through each other in a step: the warning tells which is which.
+#[test]
+fn the_warning_of_tunnelling_names_the_objects() {
+    let mut simulation = simulation_of_balls(
+        r#"(format: "pong-scene", version: 1, name: "pass", models: { "ball": "ball.ron" },
+        objects: [
+            (name: "still", model: "ball", bodies: [(motion: Fixed)]),
+            (name: "fast", model: "ball", bodies: [(motion: Free, mass: 1.0, inertia: Diagonal(4e-3, 4e-3, 4e-3),
+                position: (0.0, 0.0, 0.5), linear_velocity: (0.0, 0.0, -1000.0))])],
+        pairs: [("still", "fast")], integrator: RungeKutta4, step: 1e-3, duration: 1e-3)"#,
+    );
+    simulation.commit_initial_states().unwrap();
+    let mut statistics = RunStatistics::new(&simulation);
+    simulation.step().unwrap();
+    statistics.observe(&simulation);
+    let advice: Vec<_> = statistics.advice().collect();
+    assert!(
+        advice.len() == 1 && advice[0].contains("first `still/ball/b` through `fast/ball` at 0.001 s"),
+        "{advice:?}"
+    );
 }

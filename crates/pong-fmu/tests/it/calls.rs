@@ -4,6 +4,7 @@ use crate::support::{DISCARD, ERROR, Importer, OK, Unpacked, make, scratch, unpa
 use pong_executive::Simulation;
 use pong_executive::scene::Scene;
 use pong_fmu::{Fmi, Options};
+use pong_testkit::meshes::{l_shape, obj};
 use std::path::Path;
 
 fn simulation(scene: &Path) -> Simulation {
@@ -380,6 +381,50 @@ fn calls_that_are_wrong_are_told_and_change_nothing() {
     let force = format!("{BALL}.applied_force");
     assert_eq!(fmu.set_vector(&force, &[1.0, 2.0, f64::NAN]), DISCARD);
     assert_eq!(fmu.save(), before);
+}
+
+/// The ball flies 0.5 m down in a step of the scene, through the arm.
+#[test]
+fn the_warning_of_tunnelling_names_object_and_primitive() {
+    let (_, unit) = unit("tunnelled", &Options::default());
+    let mut fmu = Importer::new(&unit, false).unwrap();
+    assert_eq!(fmu.set(&format!("{BALL}.start.position[3]"), 0.8), OK);
+    assert_eq!(fmu.set(&format!("{BALL}.start.linear_velocity[3]"), -5e3), OK);
+    assert_eq!((fmu.begin(0.0), fmu.get_flag("contact.tunnelled")), (OK, false));
+    assert_eq!(fmu.do_step(0.0, 1e-4), OK, "{}", fmu.last());
+    assert!(fmu.get_flag("contact.tunnelled"));
+    assert!(fmu.last().contains("between two steps, `my ball/ball/s` through `arm/tile`;"), "{}", fmu.last());
+    let count = fmu.told.len();
+    assert_eq!((fmu.do_step(1e-4, 1e-4), fmu.get_flag("contact.tunnelled")), (OK, false), "{}", fmu.last());
+    assert_eq!(fmu.told.len(), count, "{:?}", fmu.told);
+}
+
+/// An L 40 mm deep in the upper end of another one. The regions below its bottom are 30 mm high.
+#[test]
+fn a_solid_deep_in_a_mesh_is_named_and_stays_in_a_saved_state() {
+    let folder = scratch("deep_in_mesh");
+    std::fs::create_dir_all(&folder).unwrap();
+    let model = r#"(format: "pong-model", version: 1, name: "l", surfaces: { "s": (stiffness: 1e5) },
+    root: (name: "l", surface: "s", contact: Solid, primitives: [TriangleMesh(name: "mesh", file: "l.obj")]))"#;
+    let scene = r#"(format: "pong-scene", version: 1, name: "deep", models: { "l": "l.ron" },
+    objects: [
+        (name: "lower", model: "l", bodies: [(motion: Fixed)]),
+        (name: "upper", model: "l", bodies: [(motion: Fixed, position: (0, 0, 0.119))])],
+    pairs: [("lower", "upper")], integrator: SemiImplicitEuler, step: 1e-3, duration: 1e-3)"#;
+    for (file, text) in [("l.obj", obj(&l_shape())), ("l.ron", model.into()), ("scene.ron", scene.into())] {
+        std::fs::write(folder.join(file), text).unwrap();
+    }
+    let options = Options { inputs: vec!["upper".into()], ..Options::default() };
+    let unit = unpack(&make(&folder.join("scene.ron"), Fmi::V3, &options), &folder.join("unit"));
+    let mut fmu = Importer::new(&unit, false).unwrap();
+    assert_eq!((fmu.begin(0.0), fmu.get_flag("contact.deep_in_mesh")), (OK, false));
+    assert_eq!(fmu.set("upper.position[3]", 0.08), OK);
+    assert_eq!(fmu.do_step(0.0, 1e-3), OK, "{}", fmu.last());
+    assert!(fmu.get_flag("contact.deep_in_mesh"));
+    assert!(fmu.last().contains("than its facets push, `upper/l` in `lower/l`, and"), "{}", fmu.last());
+    let mut other = Importer::new(&unit, false).unwrap();
+    assert_eq!(other.restore(&fmu.save()), OK, "{}", other.last());
+    assert!(other.get_flag("contact.deep_in_mesh"));
 }
 
 #[test]

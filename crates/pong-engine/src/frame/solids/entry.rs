@@ -23,6 +23,10 @@ const SAME_DIRECTION_COSINE: f64 = 0.98;
 /// Largest depth, relative to the width of a body, at which its direction of entry may change.
 const SHALLOW: f64 = 0.25;
 
+/// Difference, relative to a width, below which two lengths are equal: far above rounding, and below any difference that
+/// an author means. Where two lengths are equal, neither rounding nor the order of the two bodies decides.
+const EQUAL: f64 = 1e-9;
+
 /// Unit directions that separated two bodies before they overlapped, from one body to the other.
 pub(super) struct Entry {
     /// From B to A, in B's frame.
@@ -118,15 +122,29 @@ pub(super) fn side_of_entry(
 
 /// Directions of entry that no longer agree, where the overlap is not shallow for both sides. The side that is thinner
 /// along its own direction keeps it. The other side takes that direction too, if the overlap along it is shallow for it.
+/// Of two sides that are equally thin, the one with the smaller overlap along its own direction counts as the thinner
+/// one; if these overlaps are equal too, both keep their directions.
 fn of_thinner(sides: (&Side<'_>, &Side<'_>), relative: &Relative, known: Entry) -> Entry {
     let x_ba = &relative.x_ba;
-    let of_a = -x_ba.vector(&known.in_a);
-    let b_is_thinner = widths(sides, x_ba, &known.in_b)[1] <= widths(sides, x_ba, &of_a)[0];
-    let kept = if b_is_thinner { known.in_b } else { of_a };
-    let thicker = widths(sides, x_ba, &kept)[usize::from(!b_is_thinner)];
-    match overlap_along(sides, x_ba, &kept) < SHALLOW * thicker {
-        true => Entry::along(kept, x_ba, known.record),
-        false => known,
+    let own = [-x_ba.vector(&known.in_a), known.in_b];
+    let [along_a, along_b] = own.map(|direction| widths(sides, x_ba, &direction));
+    let thin = [along_a[0], along_b[1]];
+    let thick = [along_a[1], along_b[0]];
+    // Overlap along the direction of a side that may keep it, if the other side may take it.
+    let [by_a, by_b] = [0, 1].map(|side| {
+        let overlap = overlap_along(sides, x_ba, &own[side]);
+        (thin[side] <= thin[1 - side] * (1.0 + EQUAL) && overlap < SHALLOW * thick[side]).then_some(overlap)
+    });
+    let kept = match (by_a, by_b) {
+        (Some(a), Some(b)) if (a - b).abs() <= EQUAL * thin[0] => None,
+        (Some(a), Some(b)) if a < b => Some(own[0]),
+        (Some(_), None) => Some(own[0]),
+        (_, Some(_)) => Some(own[1]),
+        (None, None) => None,
+    };
+    match kept {
+        Some(kept) => Entry::along(kept, x_ba, known.record),
+        None => known,
     }
 }
 
@@ -152,31 +170,41 @@ fn overlap_along((a, b): (&Side<'_>, &Side<'_>), x_ba: &Transform, direction: &V
 }
 
 /// Face normal along which two convex sides are farthest apart, or overlap least: the distance along it, m,
-/// negative for an overlap, and its direction from B to A in B's frame.
+/// negative for an overlap, and its direction from B to A in B's frame. Where several normals give the same distance,
+/// the direction is their mean, unless they cancel out.
 fn separating_direction(a: &Side<'_>, b: &Side<'_>, x_ba: &Transform) -> (f64, Vec3) {
     let x_ab = x_ba.inverse();
-    let mut best = (f64::NEG_INFINITY, Vec3::z());
-    for face in b.faces {
-        let gap = gap_above(face, a, x_ba);
-        if gap > best.0 {
-            best = (gap, face.normal_b);
+    let (mut best, mut sum) = ((f64::NEG_INFINITY, Vec3::z()), Vec3::zeros());
+    let mut compare = |(gap, width): (f64, f64), direction: Vec3| {
+        let equal = (gap - best.0).abs() <= EQUAL * width;
+        if equal {
+            sum += direction;
+        } else if gap > best.0 {
+            sum = direction;
         }
+        if gap > best.0 {
+            best = (gap, direction);
+        }
+    };
+    for face in b.faces {
+        compare(gap_above(face, a, x_ba), face.normal_b);
     }
     // The plane of B has no parts, and then the faces of A say nothing.
     for face in a.faces.iter().filter(|_| !b.parts.is_empty()) {
-        let gap = gap_above(face, b, &x_ab);
-        if gap > best.0 {
-            best = (gap, -x_ba.vector(&face.normal_b));
-        }
+        compare(gap_above(face, b, &x_ab), -x_ba.vector(&face.normal_b));
+    }
+    // Parallel faces have one normal, but for rounding.
+    let length = sum.norm();
+    let is_one_normal = sum.dot(&best.1) >= (1.0 - EQUAL) * length;
+    if length > EQUAL && !is_one_normal {
+        best.1 = sum / length;
     }
     best
 }
 
-/// Height of the lowest vertex of `other` above a face, m; negative below it. `x` transforms from the frame
-/// of `other` to that of the face.
-fn gap_above(face: &HalfSpace, other: &Side<'_>, x: &Transform) -> f64 {
-    let vertices = other.parts.iter().flat_map(|part| part.surface.vertices());
-    let within = x.rotation.tr_mul(&face.normal_b);
-    let lowest = vertices.map(|vertex| within.dot(vertex)).fold(f64::INFINITY, f64::min);
-    lowest + face.normal_b.dot(&x.translation) - face.offset
+/// Height of the lowest vertex of `other` above a face, m; negative below it. Then the width of `other` along the normal
+/// of the face, m. `x` transforms from the frame of `other` to that of the face.
+fn gap_above(face: &HalfSpace, other: &Side<'_>, x: &Transform) -> (f64, f64) {
+    let [lowest, highest] = extent(other, &x.rotation.tr_mul(&face.normal_b));
+    (lowest + face.normal_b.dot(&x.translation) - face.offset, highest - lowest)
 }
