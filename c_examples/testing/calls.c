@@ -4,6 +4,7 @@
 #include "crowd.h"
 #include "joined_calls.h"
 #include "pair_calls.h"
+#include "slow_calls.h"
 #include <math.h>
 #include <pthread.h>
 #include <stdlib.h>
@@ -772,6 +773,7 @@ int main(void)
     user_data(&s);
     contacts(&s);
     tangents(&s);
+    slow_host(&s);
     pair_wrenches(&s);
     pair_distances(&s);
     pair_monitor(&s);

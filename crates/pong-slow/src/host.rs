@@ -38,12 +38,26 @@ impl SlowHost {
     /// [`World::try_clone`](pong_engine::World::try_clone).
     pub fn new(world: &World, settings: Settings) -> Result<Self, SlowError> {
         settings.require_valid()?;
+        Self::with_world(world.try_clone()?, settings)
+    }
+
+    /// A slow host that owns this world, and begins with its contact state: for worlds with laws of the caller's, which
+    /// [`World::try_clone_with_laws`](pong_engine::World::try_clone_with_laws) clones.
+    ///
+    /// # Errors
+    /// [`SlowError::BadSetting`] for settings outside their ranges.
+    pub fn with_world(world: World, settings: Settings) -> Result<Self, SlowError> {
+        settings.require_valid()?;
         let mut block = Vec::new();
         world.save_state_packed(&mut block);
-        let world = world.try_clone()?;
         let (memory, report) = (Memory::default(), Report::default());
         let (wrenches, orientations) = (Vec::new(), Vec::new());
         Ok(Self { world, settings, memory, block, pending: None, report, wrenches, orientations })
+    }
+
+    /// The world of the copies.
+    pub fn into_world(self) -> World {
+        self.world
     }
 
     /// Settings of the run.
@@ -121,6 +135,11 @@ impl SlowHost {
         }
         self.world.save_state_packed(&mut self.block);
         Ok(())
+    }
+
+    /// Drops the frame that was evaluated last, so that it cannot be committed.
+    pub fn discard(&mut self) {
+        self.pending = None;
     }
 
     /// [`evaluate`](Self::evaluate) and [`commit`](Self::commit).
