@@ -102,7 +102,7 @@ const char *pong_last_message(void);
 /* ---- Version --------------------------------------------------------------------------------------------- */
 
 /// Hash of every layout in this header; see PONG_CHECK_ABI().
-#define PONG_LAYOUT_HASH 0xf0cecfb55a34b9eaULL
+#define PONG_LAYOUT_HASH 0x8da6c5782d2fcd2fULL
 
 /// Checks that this header fits the library: call it first.
 #define PONG_CHECK_ABI() pong_check_abi(PONG_ABI_VERSION, PONG_LAYOUT_HASH)
@@ -1682,8 +1682,8 @@ pong_status pong_get_contact_energy_accounts(const struct pong_world *world,
 
 /// Settings of a slow host. Make it with pong_default_slow_settings() and change what you like.
 typedef struct pong_slow_settings {
-    /// Position rule of the host, 0 to 1, dimensionless: x1 = x0 + T v0 + theta T^2 a. 1 (default) for semi-implicit
-    /// Euler, 0.5 for Runge-Kutta with the wrench held, 0 for explicit Euler.
+    /// Position rule theta of the host, a fraction of 0 to 1: x1 = x0 + T v0 + theta T^2 a. 1 (default) for
+    /// semi-implicit Euler, 0.5 for Runge-Kutta with the wrench held, 0 for explicit Euler.
     double theta;
     /// Substeps per radian of the fastest vibration on the contacts, 1/rad, 2 to 1e6; 12 by default.
     double substeps_per_radian;
@@ -1760,11 +1760,15 @@ typedef struct pong_slow_report {
     pong_slow_warnings warnings;
     /// Sum of PONG_FLAG_... of all substeps.
     pong_flags flags;
+    /// Contacts of the copies at the end of the frame.
+    uint32_t contacts;
     /// Number of movable groups: that of the entries of pong_get_slow_differences().
     uint32_t groups;
+    /// Zero.
+    uint32_t reserved_flags;
     /// Largest rate of the contacts in the frame, rad/s; 0 if nothing touched.
     double rate;
-    /// theta as the motion since the last frame shows it, dimensionless; not a number (NaN) without acceleration.
+    /// The fraction theta as the motion since the last frame shows it; not a number (NaN) without acceleration.
     double theta_measured;
     /// Sum of the inserted energies of all groups, J.
     double inserted;
@@ -1850,17 +1854,17 @@ pong_status pong_get_slow_differences(const struct pong_slow_host *host,
                                       size_t capacity,
                                       size_t *count);
 
-/// Size of the present state of a slow host when saved, bytes. It changes with the contacts of the last commit, and is
-/// largest after the first frame. Allocates.
-pong_status pong_slow_state_size(const struct pong_slow_host *host,
-                                 size_t *size);
+/// Size of the largest state that this slow host can save, bytes. It never changes.
+pong_status pong_slow_state_size(const struct pong_slow_host *host, size_t *size);
 
 /// Saves all that a slow host keeps between frames, the contact state and the wrenches on their way included, into the
-/// first pong_slow_state_size() bytes of the caller's buffer of `size` bytes. The bytes hold no pointer. Allocates.
+/// caller's buffer of `size` bytes; `used`, which may be NULL, gets the number of bytes written. A buffer of
+/// pong_slow_state_size() bytes is always large enough. The bytes hold no pointer. Allocates.
 /// PONG_STATUS_BUFFER_TOO_SMALL: the message has the size.
 pong_status pong_save_slow_state(const struct pong_slow_host *host,
                                  void *buffer,
-                                 size_t size);
+                                 size_t size,
+                                 size_t *used);
 
 /// Restores a state that was saved by this slow host or by one of a world built by the same calls: exactly the bytes
 /// that saving wrote. PONG_STATUS_BAD_STATE_BLOCK: it is damaged or of another scene; the slow host keeps the state it

@@ -594,7 +594,8 @@ public:
         std::size_t size = 0;
         check(pong_slow_state_size(get(), &size));
         std::vector<unsigned char> state(size);
-        check(pong_save_slow_state(get(), state.data(), state.size()));
+        check(pong_save_slow_state(get(), state.data(), state.size(), &size));
+        state.resize(size);
         return state;
     }
     void restore(const std::vector<unsigned char>& state) {

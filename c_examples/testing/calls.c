@@ -1,11 +1,9 @@
-/* The calls that the other programs do not make: names, user data, contacts, contact state, clones, surfaces, pairs, energies,
- * limits, report, workers, threads, models joined of files. */
+/* Calls that the other programs do not make: names, user data, contacts, states, surfaces, pairs, energies, workers */
 #define _XOPEN_SOURCE 700 /* mkdtemp */
 #include "crowd.h"
 #include "joined_calls.h"
 #include "pair_calls.h"
 #include "slow_calls.h"
-#include <math.h>
 #include <pthread.h>
 #include <stdlib.h>
 

@@ -15,7 +15,7 @@ static inline void slow_host(scene *s)
     pong_slow_report report;
     pong_slow_difference differences[3];
     pong_wrench wrench, before = { { 0, 0, 0 }, { 0, 0, 0 } };
-    unsigned char saved[8192];
+    unsigned char saved[65536];
     size_t size = 0, count = 0;
     double fastest = 0.0, peak = 0.0;
     int i, frame, again;
@@ -37,9 +37,7 @@ static inline void slow_host(scene *s)
         /* Frame 2 twice: thrown away, restored, and once more. */
         for (again = frame == 2 ? 2 : 1; again > 0; again -= 1) {
             if (again == 2) {
-                OK(pong_slow_state_size(host, &size));
-                TEST(size <= sizeof saved);
-                OK(pong_save_slow_state(host, saved, size));
+                OK(pong_save_slow_state(host, saved, sizeof saved, &size));
                 OK(pong_evaluate_slow(host, 0.02, inputs, 3));
                 OK(pong_commit_slow(host));
                 OK(pong_get_slow_wrenches(host, s->interfaces, PONG_REFERENCE_FRAME_COMMON, &before, 1));
@@ -51,7 +49,7 @@ static inline void slow_host(scene *s)
         OK(pong_get_slow_wrenches(host, s->interfaces, PONG_REFERENCE_FRAME_COMMON, &wrench, 1));
         TEST(frame != 2 || memcmp(&wrench, &before, sizeof wrench) == 0);
         OK(pong_get_slow_report(host, &report));
-        TEST(report.groups == 3 && report.substeps >= 8 && report.warnings % PONG_SLOW_ENERGY_LIMITED == 0);
+        TEST(report.groups == 3 && report.contacts <= 1 && report.substeps >= 8 && report.warnings % PONG_SLOW_ENERGY_LIMITED == 0);
         TEST(frame == 0 || fabs(report.theta_measured - 1.0) < 1e-6);
         OK(pong_get_slow_differences(host, differences, 3, &count));
         TEST(count == 3 && differences[0].interface.bits == s->interfaces[0].bits);

@@ -97,7 +97,8 @@ layouts! {
         interface, state, dynamics, reserved, mass, mobility, linear_acceleration, angular_acceleration,
     }
     pong_slow_report {
-        substeps, substeps_wanted, evaluations, warnings, flags, groups, rate, theta_measured, inserted, reserved,
+        substeps, substeps_wanted, evaluations, warnings, flags, contacts, groups, reserved_flags, rate, theta_measured,
+        inserted, reserved,
     }
     pong_slow_difference { interface, position, rotation, linear_velocity, angular_velocity, inserted }
     pong_contact_change { pair, interfaces, begins, reserved }

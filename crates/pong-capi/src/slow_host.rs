@@ -181,26 +181,29 @@ pub unsafe extern "C" fn pong_get_slow_differences(
     })
 }
 
-/// Size of the present state of a slow host when saved, bytes. It changes with the contacts of the last commit, and is
-/// largest after the first frame. Allocates.
+/// Size of the largest state that this slow host can save, bytes. It never changes.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_slow_state_size(host: *const pong_slow_host, size: *mut usize) -> pong_status {
     with_host(host, |slow| {
-        Out::new(size, "size")?.set(slow.host.save_state().len());
+        Out::new(size, "size")?.set(slow.host.state_size());
         Ok(())
     })
 }
 
 /// Saves all that a slow host keeps between frames, the contact state and the wrenches on their way included, into the
-/// first pong_slow_state_size() bytes of the caller's buffer of `size` bytes. The bytes hold no pointer. Allocates.
+/// caller's buffer of `size` bytes; `used`, which may be NULL, gets the number of bytes written. A buffer of
+/// pong_slow_state_size() bytes is always large enough. The bytes hold no pointer. Allocates.
 /// PONG_STATUS_BUFFER_TOO_SMALL: the message has the size.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_save_slow_state(
     host: *const pong_slow_host,
     buffer: *mut c_void,
     size: usize,
+    used: *mut usize,
 ) -> pong_status {
     with_host(host, |slow| {
+        apart(("buffer", buffer.cast::<u8>(), size), ("used", used, 1))?;
+        let used = Out::optional(used, "used")?;
         let state = slow.host.save_state();
         if size < state.len() {
             let needed = state.len();
@@ -210,6 +213,7 @@ pub unsafe extern "C" fn pong_save_slow_state(
             return Err(Failure::new(pong_status::BufferTooSmall, message));
         }
         OutArray::new(buffer.cast::<u8>(), state.len(), "buffer")?.zeroed().copy_from_slice(&state);
+        used.set(state.len());
         Ok(())
     })
 }

@@ -33,11 +33,15 @@ pub struct pong_slow_report {
     pub warnings: pong_slow_warnings,
     /// Sum of PONG_FLAG_... of all substeps.
     pub flags: pong_flags,
+    /// Contacts of the copies at the end of the frame.
+    pub contacts: u32,
     /// Number of movable groups: that of the entries of pong_get_slow_differences().
     pub groups: u32,
+    /// Zero.
+    pub reserved_flags: u32,
     /// Largest rate of the contacts in the frame, rad/s; 0 if nothing touched.
     pub rate: f64,
-    /// theta as the motion since the last frame shows it, dimensionless; not a number (NaN) without acceleration.
+    /// The fraction theta as the motion since the last frame shows it; not a number (NaN) without acceleration.
     pub theta_measured: f64,
     /// Sum of the inserted energies of all groups, J.
     pub inserted: f64,
@@ -73,7 +77,9 @@ impl From<&Report> for pong_slow_report {
             evaluations: report.evaluations,
             warnings: warnings(&report.status),
             flags: report.status.engine.bits(),
+            contacts: report.contacts,
             groups: report.groups.len() as u32,
+            reserved_flags: 0,
             rate: report.rate,
             theta_measured: report.theta_measured.unwrap_or(f64::NAN),
             inserted: report.inserted,

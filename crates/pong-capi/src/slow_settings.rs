@@ -8,8 +8,8 @@ use pong_slow::Settings;
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct pong_slow_settings {
-    /// Position rule of the host, 0 to 1, dimensionless: x1 = x0 + T v0 + theta T^2 a. 1 (default) for semi-implicit
-    /// Euler, 0.5 for Runge-Kutta with the wrench held, 0 for explicit Euler.
+    /// Position rule theta of the host, a fraction of 0 to 1: x1 = x0 + T v0 + theta T^2 a. 1 (default) for
+    /// semi-implicit Euler, 0.5 for Runge-Kutta with the wrench held, 0 for explicit Euler.
     pub theta: f64,
     /// Substeps per radian of the fastest vibration on the contacts, 1/rad, 2 to 1e6; 12 by default.
     pub substeps_per_radian: f64,

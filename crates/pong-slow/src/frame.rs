@@ -150,6 +150,7 @@ impl<'f> Frame<'f> {
                 Outcome::TooCoarse(rate) => rate_square = rate,
                 Outcome::Ends(ends) => {
                     self.report.substeps = substeps;
+                    self.report.contacts = ends.touches.len() as u32;
                     self.report.rate = ends.rate_square.sqrt();
                     self.report.substeps_wanted = self.substeps(ends.rate_square).max(substeps);
                     let status = &mut self.report.status;

@@ -101,7 +101,7 @@ impl SlowHost {
         self.pending = None;
         self.world.restore_state(&self.block)?;
         self.world.set_states(states)?;
-        let flags = self.world.evaluate()?.status;
+        let frame = self.world.evaluate()?;
         let objects: Vec<_> = self.world.scene().objects().collect();
         self.wrenches.clear();
         self.orientations.clear();
@@ -112,7 +112,8 @@ impl SlowHost {
                 self.orientations.push(pose.orientation);
             }
         }
-        self.report = Report { evaluations: 1, status: plain_status(flags), ..Report::default() };
+        let (contacts, status) = (frame.contacts, plain_status(frame.status));
+        self.report = Report { evaluations: 1, contacts, status, ..Report::default() };
         self.pending = Some(Pending::Plain);
         Ok(&self.report)
     }
@@ -178,6 +179,12 @@ impl SlowHost {
         let common = self.wrench_common(interface)?;
         let back = self.orientations[interface.index()].inverse();
         Ok(Wrench { force: back * common.force, moment: back * common.moment })
+    }
+
+    /// Size of the largest state that this host can save, bytes.
+    pub fn state_size(&self) -> usize {
+        let bodies = self.world.inspect().group_count();
+        block::size_max(bodies, self.settings.delay_frames, self.world.state_size())
     }
 
     /// Memory between frames, with the contact state, as bytes.

@@ -136,8 +136,9 @@ impl Session<'_> {
             return;
         }
         let mut state = vec![0_u8; size];
+        let largest = size;
         let saved = self.call("save slow state", Sure::Right, || unsafe {
-            pong_save_slow_state(host, state.as_mut_ptr().cast(), size)
+            pong_save_slow_state(host, state.as_mut_ptr().cast(), largest, &mut size)
         });
         if !saved {
             return;
