@@ -4,6 +4,7 @@
 |---|---|
 | `AddedModel`, `Object`, `Pair`, `Interface` | `WorldBuilder`, `World`: what was set up, and its number |
 | `FrameReport`, `ContactChange`, `PairPeaks`, `Distance`, `Tangent` | `World`: frames |
+| `SlowReport` | `SlowHost`: frames |
 | `Run` | `Simulation.run` |
 | `Replay`, `Trade` with `Level`, `Tuned` | `replay`, `trade`, `tune` |
 | `BatchRuns` | `Batch.run` |
@@ -30,6 +31,7 @@ from ._pong import (
     Replay,
     Row,
     Run,
+    SlowReport,
     Tangent,
     Trade,
     Tuned,
@@ -53,6 +55,7 @@ __all__ = [
     "Replay",
     "Row",
     "Run",
+    "SlowReport",
     "Tangent",
     "Trade",
     "Tuned",
