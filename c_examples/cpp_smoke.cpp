@@ -233,6 +233,28 @@ void record(pong::World& world) {
     std::filesystem::remove_all(folder);
 }
 
+// A ball of 1 kg that rests on the ground in frames of 0.1 s is held up by its weight.
+void hold(const pong::World& world) {
+    pong::SlowHost host(world);
+    std::vector<pong::SlowInput> inputs(2);
+    inputs[0].interface = world.interface(world.object("ball"));
+    inputs[1].interface = world.interface(world.object("ground"));
+    inputs[0].state = inputs[1].state = pong::State();
+    inputs[0].state.position[2] = 0.1 - 9.81e-4;
+    inputs[0].dynamics = PONG_DYNAMICS_FREE;
+    inputs[0].mass = {1.0, {4e-3, 4e-3, 4e-3, 0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};
+    inputs[0].linear_acceleration[2] = -9.81;
+    inputs[1].dynamics = PONG_DYNAMICS_PRESCRIBED;
+    host.step(0.1, inputs);
+    const std::vector<unsigned char> state = host.save();
+    host.evaluate(0.1, inputs);
+    host.commit();
+    require(std::fabs(host.wrench(inputs[0].interface, pong::Frame::common).force[2] - 9.81) < 1e-6, "the wrench holds the ball");
+    require(host.report().substeps > 8 && host.differences().size() == 2, "the frame has its report");
+    host.restore(state);
+    require(host.save() == state, "a restored slow host has the same state");
+}
+
 } // namespace
 
 void* operator new(std::size_t size) {
@@ -244,8 +266,9 @@ void* operator new(std::size_t size) {
     return memory;
 }
 
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+// Not inlined: the compiler would otherwise see memory of `new` go to `free`, and warn.
+[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
 int main() {
     try {
@@ -258,6 +281,7 @@ int main() {
         use_memory_again(world);
         keep_numbers(world);
         look(world);
+        hold(world);
         record(world);
     } catch (const pong::Error& error) {
         std::fprintf(stderr, "%s\n", error.what());

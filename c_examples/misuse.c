@@ -151,10 +151,14 @@ static void names_and_ids(scene *s)
 static void order_before_seal(scene *s)
 {
     pong_world *clone = s->world;
+    pong_slow_settings settings = pong_default_slow_settings();
+    pong_slow_host *host = NULL;
     pong_wrench wrench;
     size_t size;
     pong_worker worker;
     const char *text;
+    REFUSED(pong_create_slow_host(s->world, &settings, &host), WRONG_PHASE, "seal the world first");
+    TEST(host == NULL);
     REFUSED(pong_clone_world(s->world, &clone), WRONG_PHASE, "seal the world first");
     TEST(clone == NULL);
     clone = s->world;
@@ -290,6 +294,134 @@ static void bad_tangents(scene *s)
     REFUSED(pong_get_tangents_by_differences(s->world, &tangent, 1, NULL), NULL_ARGUMENT, "`count`");
 }
 
+/* Inputs of a frame in which the ball falls at the arm's side and the ground stands. */
+static void slow_inputs(const scene *s, pong_slow_input *inputs)
+{
+    int i;
+    memset(inputs, 0, 3 * sizeof *inputs);
+    for (i = 0; i < 3; i += 1) {
+        inputs[i].interface = s->interfaces[i];
+        inputs[i].state = s->states[i];
+        inputs[i].dynamics = i == 0 ? PONG_DYNAMICS_FREE : i == 1 ? PONG_DYNAMICS_JOINTED : PONG_DYNAMICS_PRESCRIBED;
+        inputs[i].mass.mass = 1.0;
+        inputs[i].mass.inertia[0] = inputs[i].mass.inertia[1] = inputs[i].mass.inertia[2] = 1e-3;
+        inputs[i].mobility[6 * 2 + 2] = 0.5;
+    }
+}
+
+static void bad_slow_settings(scene *s)
+{
+    pong_slow_settings settings = pong_default_slow_settings();
+    pong_slow_host *host = (pong_slow_host *)s;
+    REFUSED(pong_create_slow_host(NULL, &settings, &host), NULL_ARGUMENT, "`world`");
+    TEST(host == NULL);
+    REFUSED(pong_create_slow_host(s->world, NULL, &host), NULL_ARGUMENT, "`settings`");
+    REFUSED(pong_create_slow_host(s->world, &settings, NULL), NULL_ARGUMENT, "`host`");
+    settings.theta = 1.5;
+    REFUSED(pong_create_slow_host(s->world, &settings, &host), BAD_VALUE, "`theta`: it is 1.5");
+    settings = pong_default_slow_settings();
+    settings.substeps_max = 0;
+    REFUSED(pong_create_slow_host(s->world, &settings, &host), BAD_VALUE, "`substeps_max`: it is 0");
+    settings = pong_default_slow_settings();
+    settings.delay_frames = 1025;
+    REFUSED(pong_create_slow_host(s->world, &settings, &host), BAD_VALUE, "`delay_frames`: it is 1025");
+    settings = pong_default_slow_settings();
+    settings.reserved[3] = 1;
+    REFUSED(pong_create_slow_host(s->world, &settings, &host), BAD_VALUE, "reserved");
+    TEST(host == NULL);
+}
+
+/* Each refused frame leaves nothing behind: the state is the same bytes afterwards. */
+static void bad_slow_inputs(scene *s, pong_slow_host *host)
+{
+    pong_slow_input inputs[4];
+    slow_inputs(s, inputs);
+    inputs[3] = inputs[0];
+    REFUSED(pong_step_slow(NULL, 0.01, inputs, 3), NULL_ARGUMENT, "`host`");
+    REFUSED(pong_step_slow(host, 0.01, NULL, 3), NULL_ARGUMENT, "`inputs`");
+    REFUSED(pong_step_slow(host, 0.0, inputs, 3), BAD_VALUE, "length of the frame: it is 0 s");
+    REFUSED(pong_step_slow(host, NAN, inputs, 3), BAD_VALUE, "length of the frame");
+    REFUSED(pong_step_slow(host, 0.01, inputs, 2), BAD_VALUE, "mass of `ground/ground`: it is missing");
+    REFUSED(pong_step_slow(host, 0.01, NULL, 0), BAD_VALUE, "it is missing");
+    REFUSED(pong_step_slow(host, 0.01, inputs, 4), BAD_VALUE, "given twice");
+    inputs[0].mass.mass = 0.0;
+    REFUSED(pong_step_slow(host, 0.01, inputs, 3), BAD_VALUE, "mass of `ball/ball`: it is 0 kg");
+    slow_inputs(s, inputs);
+    inputs[0].mass.inertia[1] = 0.0;
+    REFUSED(pong_step_slow(host, 0.01, inputs, 3), BAD_VALUE, "inertia of `ball/ball`");
+    slow_inputs(s, inputs);
+    inputs[1].mobility[6 * 2 + 2] = -0.5;
+    REFUSED(pong_step_slow(host, 0.01, inputs, 3), BAD_VALUE, "mobility of `ball/ball/arm`");
+    slow_inputs(s, inputs);
+    inputs[2].dynamics = 0;
+    REFUSED(pong_step_slow(host, 0.01, inputs, 3), BAD_VALUE, "inputs[2].dynamics: it is 0");
+    slow_inputs(s, inputs);
+    inputs[1].reserved = 1;
+    REFUSED(pong_step_slow(host, 0.01, inputs, 3), BAD_VALUE, "inputs[1].reserved");
+    slow_inputs(s, inputs);
+    inputs[0].linear_acceleration[2] = INFINITY;
+    REFUSED(pong_step_slow(host, 0.01, inputs, 3), BAD_VALUE, "acceleration of `ball/ball`");
+    slow_inputs(s, inputs);
+    inputs[0].state.orientation[0] = 2.0;
+    REFUSED(pong_step_slow(host, 0.01, inputs, 3), BAD_STATE, "norm");
+    slow_inputs(s, inputs);
+    inputs[0].interface.bits += 7;
+    REFUSED(pong_step_slow(host, 0.01, inputs, 3), UNKNOWN_ID, "interface");
+}
+
+static void bad_slow_results(scene *s, pong_slow_host *host)
+{
+    pong_slow_difference differences[3];
+    pong_slow_report report;
+    pong_wrench wrench;
+    unsigned char state[65536];
+    size_t size, count = 77;
+    REFUSED(pong_get_slow_wrenches(host, s->interfaces, 9, &wrench, 1), BAD_VALUE, "`frame` is 9");
+    REFUSED(pong_get_slow_wrenches(host, s->interfaces, PONG_REFERENCE_FRAME_COMMON, NULL, 1), NULL_ARGUMENT, "`wrenches`");
+    REFUSED(pong_get_slow_report(NULL, &report), NULL_ARGUMENT, "`host`");
+    REFUSED(pong_get_slow_report(host, NULL), NULL_ARGUMENT, "`report`");
+    REFUSED(pong_get_slow_differences(host, NULL, 0, &count), BUFFER_TOO_SMALL, "there are 3");
+    TEST(count == 3);
+    REFUSED(pong_get_slow_differences(host, NULL, 3, &count), NULL_ARGUMENT, "`differences`");
+    REFUSED(pong_get_slow_differences(host, differences, 3, NULL), NULL_ARGUMENT, "`count`");
+    REFUSED(pong_slow_state_size(host, NULL), NULL_ARGUMENT, "`size`");
+    OK(pong_slow_state_size(host, &count));
+    OK(pong_save_slow_state(host, state, sizeof state, &size));
+    TEST(size > 1000 && size <= count);
+    REFUSED(pong_save_slow_state(host, state, size - 1, NULL), BUFFER_TOO_SMALL, "make it larger");
+    REFUSED(pong_save_slow_state(host, NULL, size, &size), NULL_ARGUMENT, "`buffer`");
+    REFUSED(pong_restore_slow_state(host, state, size - 1), BAD_STATE_BLOCK, "damaged");
+    REFUSED(pong_restore_slow_state(host, NULL, size), NULL_ARGUMENT, "`buffer`");
+    state[100] ^= 1;
+    REFUSED(pong_restore_slow_state(host, state, size), BAD_STATE_BLOCK, "nothing was restored");
+    REFUSED(pong_restore_slow_state(host, state, 0), BAD_STATE_BLOCK, "damaged");
+}
+
+static void slow_host(scene *s)
+{
+    pong_slow_settings settings = pong_default_slow_settings();
+    pong_slow_host *host = NULL;
+    pong_slow_input inputs[3];
+    pong_wrench wrench;
+    unsigned char before[65536], after[65536];
+    size_t size, again;
+    bad_slow_settings(s);
+    OK(pong_create_slow_host(s->world, &settings, &host));
+    REFUSED(pong_commit_slow(host), WRONG_PHASE, "evaluate a frame first");
+    REFUSED(pong_get_slow_wrenches(host, s->interfaces, PONG_REFERENCE_FRAME_COMMON, &wrench, 1), WRONG_PHASE, "evaluate");
+    slow_inputs(s, inputs);
+    OK(pong_step_slow(host, 0.01, inputs, 3));
+    OK(pong_save_slow_state(host, before, sizeof before, &size));
+    OK(pong_evaluate_slow(host, 0.01, inputs, 3));
+    bad_slow_inputs(s, host);
+    REFUSED(pong_commit_slow(host), WRONG_PHASE, "evaluate a frame first");
+    bad_slow_results(s, host);
+    OK(pong_save_slow_state(host, after, sizeof after, &again));
+    TEST(size == again && memcmp(before, after, size) == 0);
+    OK(pong_destroy_slow_host(host));
+    OK(pong_destroy_slow_host(NULL));
+}
+
 static void bad_results(scene *s)
 {
     pong_wrench wrench;
@@ -406,6 +538,7 @@ int main(void)
     TEST(first.force[2] > 9.9 && first.force[2] < 10.1);
     bad_states(&s);
     bad_results(&s);
+    slow_host(&s);
     stale_ids(&s);
     last = good_frame(&s);
     TEST(memcmp(&first, &last, sizeof first) == 0);

@@ -36,7 +36,8 @@ ARROWS = {
     "pong-testkit": {"pong-geometry", "pong-model", "pong-engine"},
     "pong-view": {"pong-geometry", "pong-model", "pong-record"},
     "pong-capi": {
-        "pong-advise", "pong-arena", "pong-fpenv", "pong-geometry", "pong-model", "pong-engine", "pong-record", "pong-threads",
+        "pong-advise", "pong-arena", "pong-fpenv", "pong-geometry", "pong-model", "pong-engine", "pong-record", "pong-slow",
+        "pong-threads",
     },
     "pong-cli": {
         "pong-advise", "pong-decompose", "pong-doctor", "pong-geometry", "pong-import", "pong-invariance", "pong-model", "pong-engine", "pong-executive", "pong-fit", "pong-fmu", "pong-record",

@@ -103,6 +103,7 @@ const char *pong_last_message(void);
 
 /// Hash of every layout in this header; see PONG_CHECK_ABI().
 #define PONG_LAYOUT_HASH 0xb674c13679bb7705ULL
+#define PONG_LAYOUT_HASH 0x8da6c5782d2fcd2fULL
 
 /// Checks that this header fits the library: call it first.
 #define PONG_CHECK_ABI() pong_check_abi(PONG_ABI_VERSION, PONG_LAYOUT_HASH)
@@ -367,13 +368,13 @@ pong_status pong_find_primitive(const struct pong_world *world,
 /* ---- Set-up: masses and step ----------------------------------------------------------------------------- */
 /* Optional: checks whether the host's step is short enough. No frame reads masses or plan. */
 
-/// Mass properties of a movable group, for the step adviser alone: no frame reads them.
+/// Mass properties of a movable group, for the step adviser and for slow hosts: no frame of a world reads them.
 typedef struct pong_mass {
-    /// Mass, kg; INFINITY for a group that does not yield (fixed, or on a prescribed path).
+    /// Mass, kg; for the step adviser INFINITY if the group does not yield (fixed, or on a prescribed path).
     double mass;
     /// Inertia about the mass centre along the axes of the group frame, kg m^2: Ixx, Iyy, Izz, Ixy, Ixz, Iyz,
-    /// the products as elements of the tensor itself (Ixy = minus the integral of x y dm). All zero if it is
-    /// not known: lever arms are then left out.
+    /// the products as elements of the tensor itself (Ixy = minus the integral of x y dm). All zero, for
+    /// the step adviser alone, if it is not known: lever arms are then left out.
     double inertia[6];
     /// The mass centre in the group frame, m.
     double mass_center[3];
@@ -1677,6 +1678,202 @@ pong_status pong_get_contact_energy_accounts(const struct pong_world *world,
                                              struct pong_energy_account *accounts,
                                              size_t capacity,
                                              size_t *count);
+
+/* ---- Slow hosts ------------------------------------------------------------------------------------------ */
+/* Optional: for hosts that call once in a long frame and hold the wrench. See docs/slow_hosts.md. */
+
+/// Settings of a slow host. Make it with pong_default_slow_settings() and change what you like.
+typedef struct pong_slow_settings {
+    /// Position rule theta of the host, a fraction of 0 to 1: x1 = x0 + T v0 + theta T^2 a. 1 (default) for
+    /// semi-implicit Euler, 0.5 for Runge-Kutta with the wrench held, 0 for explicit Euler.
+    double theta;
+    /// Substeps per radian of the fastest vibration on the contacts, 1/rad, 2 to 1e6; 12 by default.
+    double substeps_per_radian;
+    /// Largest number of substeps in a frame, at least 1; 20000 by default. It bounds the time of a frame: one that
+    /// needs more has PONG_SLOW_SUBSTEP_LIMIT in its report.
+    uint32_t substeps_max;
+    /// Whole frames by which the host applies the wrench later than it could, at most 1024; 0 by default.
+    uint32_t delay_frames;
+    /// Zero.
+    uint64_t reserved[4];
+} pong_slow_settings;
+
+/// The default settings of a slow host.
+struct pong_slow_settings pong_default_slow_settings(void);
+
+/// Answer of a movable group to an impulse: PONG_DYNAMICS_...; 0 is none of them and refused.
+typedef uint32_t pong_dynamics;
+
+/// A free rigid body with `mass`. It holds the wrench along common axes.
+#define PONG_DYNAMICS_FREE 1
+/// A body that joints hold, with `mobility`. It holds the wrench along the axes of the group, which turn with it.
+#define PONG_DYNAMICS_JOINTED 2
+/// A body that contact does not move: the ground, or a body on a prescribed path.
+#define PONG_DYNAMICS_PRESCRIBED 3
+
+/// State and dynamics of one movable group at the start of a frame of a slow host. Make it with zeros and set what its
+/// dynamics need.
+typedef struct pong_slow_input {
+    /// The movable group.
+    struct pong_interface_id interface;
+    /// State at the start of the frame, as for pong_set_states().
+    struct pong_state state;
+    /// One of PONG_DYNAMICS_...; must be set.
+    pong_dynamics dynamics;
+    /// Zero.
+    uint32_t reserved;
+    /// With PONG_DYNAMICS_FREE: mass and inertia, both positive, and mass centre.
+    struct pong_mass mass;
+    /// With PONG_DYNAMICS_JOINTED: velocity of the group's origin (linear, then angular) per impulse (linear, then
+    /// angular, about the origin) as the joints let it move, 1/kg, 1/(kg m) and 1/(kg m^2), by rows, along the axes of
+    /// the group. Symmetric, without negative eigenvalues; singular where joints hold.
+    double mobility[36];
+    /// Acceleration without contact, m/s^2, along common axes: of the mass centre of a free body, otherwise of the
+    /// group's origin, with the centripetal part. Gravity, thrusters and forces of joints are in it.
+    double linear_acceleration[3];
+    /// Angular acceleration without contact, rad/s^2, along common axes.
+    double angular_acceleration[3];
+} pong_slow_input;
+
+/// Warnings of a frame of a slow host: a sum of PONG_SLOW_....
+typedef uint32_t pong_slow_warnings;
+
+/// The contacts needed more substeps than `substeps_max`.
+#define PONG_SLOW_SUBSTEP_LIMIT 1
+/// The substeps were too few to follow the contacts at all. The wrench is that of one implicit step, which gains no
+/// energy and gives no rebound.
+#define PONG_SLOW_UNRESOLVED 2
+/// A body left what it touched and touched something else within the frame. The host sees the mean of both.
+#define PONG_SLOW_MET_ANOTHER 4
+/// theta as measured from the motion differs from the setting by more than 0.1: energy is gained without bound.
+#define PONG_SLOW_THETA_MISMATCH 8
+/// The velocity nearest to the copies would have had too much energy, and was reduced.
+#define PONG_SLOW_ENERGY_LIMITED 16
+
+/// Report of the last frame of a slow host.
+typedef struct pong_slow_report {
+    /// Substeps taken.
+    uint32_t substeps;
+    /// Substeps that the contacts need.
+    uint32_t substeps_wanted;
+    /// Evaluations of the engine, those of the substeps included.
+    uint32_t evaluations;
+    /// Sum of PONG_SLOW_....
+    pong_slow_warnings warnings;
+    /// Sum of PONG_FLAG_... of all substeps.
+    pong_flags flags;
+    /// Contacts of the copies at the end of the frame.
+    uint32_t contacts;
+    /// Number of movable groups: that of the entries of pong_get_slow_differences().
+    uint32_t groups;
+    /// Zero.
+    uint32_t reserved_flags;
+    /// Largest rate of the contacts in the frame, rad/s; 0 if nothing touched.
+    double rate;
+    /// The fraction theta as the motion since the last frame shows it; not a number (NaN) without acceleration.
+    double theta_measured;
+    /// Sum of the inserted energies of all groups, J.
+    double inserted;
+    /// Zero.
+    uint64_t reserved[4];
+} pong_slow_report;
+
+/// Difference between what the host did and what the last frame predicted, for one movable group. With delay frames
+/// both are carried forward to the time at which the wrench of this frame acts.
+typedef struct pong_slow_difference {
+    /// The movable group.
+    struct pong_interface_id interface;
+    /// Found minus predicted leading position, m (docs/theory.md, 9): of the mass centre of a free body along common
+    /// axes, of the origin of a jointed one along the axes of the group.
+    double position[3];
+    /// Found minus predicted orientation as a rotation vector, rad, along the same axes.
+    double rotation[3];
+    /// Found minus predicted linear velocity, m/s, along the same axes.
+    double linear_velocity[3];
+    /// Found minus predicted angular velocity, rad/s, along the same axes.
+    double angular_velocity[3];
+    /// Energy that this difference inserted, J. 0 in the first frame.
+    double inserted;
+} pong_slow_difference;
+
+/// Contact for a host that calls once in a long frame: a clone of a world, in which copies of the bodies follow the
+/// contacts with short substeps. Opaque. Threads as for a world.
+typedef struct pong_slow_host pong_slow_host;
+
+/// Makes a slow host of a clone of a sealed world, with the same ids, surfaces, pairs and contact state. Later changes of
+/// the world do not reach it, and the world may be destroyed before it; `user` data of laws must live as long. It is
+/// the caller's: destroy it with pong_destroy_slow_host(). On failure `host` gets NULL. After sealing.
+pong_status pong_create_slow_host(const struct pong_world *world,
+                                  const struct pong_slow_settings *settings,
+                                  struct pong_slow_host **host);
+
+/// Destroys a slow host. NULL is allowed and does nothing. No other call on it may follow. PONG_STATUS_BUSY and
+/// PONG_STATUS_WORKER_LEFT as for pong_destroy_world().
+pong_status pong_destroy_slow_host(struct pong_slow_host *host);
+
+/// Computes the wrenches to hold over a frame of `length`, s: the time until the next call. `inputs` has one entry for
+/// each movable group of the world, in any order. Affects no later evaluate or commit; after a failure there is no frame
+/// to commit. Allocates.
+///
+/// PONG_STATUS_BAD_VALUE: the length is not positive; a group is missing or given twice; dynamics are none of
+/// PONG_DYNAMICS_...; a mass is not positive, an inertia not positive definite, a mobility not symmetric or with a
+/// negative eigenvalue; an acceleration is not finite. PONG_STATUS_BAD_STATE as for pong_set_states().
+/// PONG_STATUS_LAW_FAILED: the frame does not count.
+pong_status pong_evaluate_slow(struct pong_slow_host *host,
+                               double length,
+                               const struct pong_slow_input *inputs,
+                               size_t n);
+
+/// Accepts the frame that was evaluated last: the only call that changes what is kept between frames.
+/// PONG_STATUS_WRONG_PHASE if there is none.
+pong_status pong_commit_slow(struct pong_slow_host *host);
+
+/// pong_evaluate_slow() and pong_commit_slow(), for hosts that call once a frame. Errors as for pong_evaluate_slow();
+/// nothing is committed then.
+pong_status pong_step_slow(struct pong_slow_host *host,
+                           double length,
+                           const struct pong_slow_input *inputs,
+                           size_t n);
+
+/// Copies the wrenches to hold of the last frame on `n` movable groups, N and N m, about the origin of each, for the
+/// orientation at the start of the frame. Take PONG_REFERENCE_FRAME_COMMON for a free body, which holds the wrench along
+/// these axes, and PONG_REFERENCE_FRAME_GROUP for a jointed one. The arrays must not share memory; with n = 0 they may be
+/// NULL. PONG_STATUS_WRONG_PHASE before the first frame.
+pong_status pong_get_slow_wrenches(const struct pong_slow_host *host,
+                                   const struct pong_interface_id *interfaces,
+                                   pong_reference_frame frame,
+                                   struct pong_wrench *wrenches,
+                                   size_t n);
+
+/// Copies the report of the last frame; before the first all zero, and theta_measured not a number.
+pong_status pong_get_slow_report(const struct pong_slow_host *host, struct pong_slow_report *report);
+
+/// Copies, for each movable group, what the host did otherwise than the last frame had predicted, in the order of the
+/// world: the first `capacity`; `count` gets their number, which is 0 before the first frame.
+/// PONG_STATUS_BUFFER_TOO_SMALL if not all fit. With capacity 0 `differences` may be NULL.
+pong_status pong_get_slow_differences(const struct pong_slow_host *host,
+                                      struct pong_slow_difference *differences,
+                                      size_t capacity,
+                                      size_t *count);
+
+/// Size of the largest state that this slow host can save, bytes. It never changes.
+pong_status pong_slow_state_size(const struct pong_slow_host *host, size_t *size);
+
+/// Saves all that a slow host keeps between frames, the contact state and the wrenches on their way included, into the
+/// caller's buffer of `size` bytes; `used`, which may be NULL, gets the number of bytes written. A buffer of
+/// pong_slow_state_size() bytes is always large enough. The bytes hold no pointer. Allocates.
+/// PONG_STATUS_BUFFER_TOO_SMALL: the message has the size.
+pong_status pong_save_slow_state(const struct pong_slow_host *host,
+                                 void *buffer,
+                                 size_t size,
+                                 size_t *used);
+
+/// Restores a state that was saved by this slow host or by one of a world built by the same calls: exactly the bytes
+/// that saving wrote. PONG_STATUS_BAD_STATE_BLOCK: it is damaged or of another scene; the slow host keeps the state it
+/// had. Allocates.
+pong_status pong_restore_slow_state(struct pong_slow_host *host,
+                                    const void *buffer,
+                                    size_t size);
 
 #ifdef __cplusplus
 }  /* extern "C" */

@@ -63,6 +63,10 @@ using Tangent = pong_tangent;
 using ContactTangent = pong_contact_tangent;
 using Potential = pong_potential;
 using SurfaceSlope = pong_surface_slope;
+using SlowSettings = pong_slow_settings;
+using SlowInput = pong_slow_input;
+using SlowReport = pong_slow_report;
+using SlowDifference = pong_slow_difference;
 using Ledger = pong_ledger;
 using EnergyAccount = pong_energy_account;
 using PairEnergyAccount = pong_pair_energy_account;
@@ -566,6 +570,66 @@ private:
     }
 
     std::unique_ptr<pong_world, Destroy> world_;
+};
+
+/// Owner of a slow host: contact for a host that calls once in a long frame. See pong_create_slow_host().
+class SlowHost {
+public:
+    explicit SlowHost(const World& world, const SlowSettings& settings = pong_default_slow_settings()) {
+        pong_slow_host* made = nullptr;
+        check(pong_create_slow_host(world.get(), &settings, &made));
+        host_.reset(made);
+    }
+
+    /// Handle for calls that this class does not have.
+    pong_slow_host* get() const noexcept { return host_.get(); }
+
+    /// Computes the wrenches to hold over a frame of `length`, s; `inputs` of every movable group.
+    void evaluate(double length, const std::vector<SlowInput>& inputs) {
+        check(pong_evaluate_slow(get(), length, inputs.data(), inputs.size()));
+    }
+    void commit() { check(pong_commit_slow(get())); }
+    /// evaluate() and commit().
+    void step(double length, const std::vector<SlowInput>& inputs) {
+        check(pong_step_slow(get(), length, inputs.data(), inputs.size()));
+    }
+    /// Wrench to hold over the last frame: along common axes for a free body, along the group's for a jointed one.
+    Wrench wrench(InterfaceId interface, Frame frame) const {
+        pong_wrench out;
+        check(pong_get_slow_wrenches(get(), &interface, static_cast<pong_reference_frame>(frame), &out, 1));
+        return out;
+    }
+    SlowReport report() const {
+        SlowReport out;
+        check(pong_get_slow_report(get(), &out));
+        return out;
+    }
+    /// Differences of the host from the prediction, for each movable group. Allocates.
+    std::vector<SlowDifference> differences() const {
+        std::vector<SlowDifference> all(report().groups);
+        std::size_t count = 0;
+        check(pong_get_slow_differences(get(), all.data(), all.size(), &count));
+        return all;
+    }
+    /// All that is kept between frames, as bytes. Allocates.
+    std::vector<unsigned char> save() const {
+        std::size_t size = 0;
+        check(pong_slow_state_size(get(), &size));
+        std::vector<unsigned char> state(size);
+        check(pong_save_slow_state(get(), state.data(), state.size(), &size));
+        state.resize(size);
+        return state;
+    }
+    void restore(const std::vector<unsigned char>& state) {
+        check(pong_restore_slow_state(get(), state.data(), state.size()));
+    }
+
+private:
+    struct Destroy {
+        void operator()(pong_slow_host* host) const noexcept { pong_destroy_slow_host(host); }
+    };
+
+    std::unique_ptr<pong_slow_host, Destroy> host_;
 };
 
 } // namespace pong

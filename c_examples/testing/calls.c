@@ -1,11 +1,10 @@
-/* The calls that the other programs do not make: names, user data, contacts, contact state, clones, surfaces, pairs, energies,
- * limits, report, workers, threads, models joined of files. */
+/* Calls that the other programs do not make: names, user data, contacts, states, surfaces, pairs, energies, workers */
 #define _XOPEN_SOURCE 700 /* mkdtemp */
 #include "crowd.h"
 #include "joined_calls.h"
 #include "pair_calls.h"
 #include "slope_calls.h"
-#include <math.h>
+#include "slow_calls.h"
 #include <pthread.h>
 #include <stdlib.h>
 
@@ -747,6 +746,7 @@ int main(void)
     user_data(&s);
     contacts(&s);
     tangents(&s);
+    slow_host(&s);
     pair_wrenches(&s);
     pair_distances(&s);
     pair_monitor(&s);

@@ -3,11 +3,12 @@
 use crate::failure::Outcome;
 use crate::guard::get;
 use crate::handle::{Counters, Inner, pong_world};
-use crate::law_adapters::LawFaults;
+use crate::law_adapters::{Callback, LawFaults};
 use crate::memory;
 use crate::phase::Phase;
 use crate::pointers::Out;
 use crate::status::pong_status;
+use pong_engine::World;
 use std::ffi::CString;
 use std::sync::Mutex;
 
@@ -32,14 +33,20 @@ pub unsafe extern "C" fn pong_clone_world(
 }
 
 impl Inner {
-    fn try_clone(&self) -> Outcome<Self> {
-        let world = self.phase.frames("clone the world")?;
+    /// Clone of the engine's world, with its laws. They have fault flags of their own: a law that fails in one world
+    /// does not fail a frame of the other.
+    pub(crate) fn clone_engine(&self, call: &'static str) -> Outcome<(World, LawFaults, Vec<Callback>)> {
+        let world = self.phase.frames(call)?;
         memory::require_for_object(self.names.interface_count())?;
-        // Separate fault flags: a law that fails in one world does not fail a frame of the other.
         let mut law_faults = LawFaults::default();
         let (callbacks, laws) = law_faults.watch_again(&self.callbacks);
         let world =
             if callbacks.is_empty() { world.try_clone()? } else { world.try_clone_with_laws(laws)? };
+        Ok((world, law_faults, callbacks))
+    }
+
+    fn try_clone(&self) -> Outcome<Self> {
+        let (world, law_faults, callbacks) = self.clone_engine("clone the world")?;
         let contact_capacity = self.counters.contact_capacity;
         Ok(Self {
             workers: world.worker_starts().iter().map(Into::into).collect(),

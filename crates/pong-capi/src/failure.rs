@@ -4,6 +4,7 @@ use crate::status::pong_status;
 use pong_arena::OutOfMemory;
 use pong_engine::EngineError;
 use pong_model::ModelErrors;
+use pong_slow::SlowError;
 
 /// Failure of a call.
 #[derive(Debug)]
@@ -48,6 +49,18 @@ impl From<EngineError> for Failure {
             EngineError::OutOfMemory { .. } => Self { status, why: Why::Error(error) },
             _ => Self::new(status, error.to_string()),
         }
+    }
+}
+
+impl From<SlowError> for Failure {
+    fn from(error: SlowError) -> Self {
+        let status = match error {
+            SlowError::Engine(error) => return error.into(),
+            SlowError::BadSetting { .. } | SlowError::BadInput { .. } => pong_status::BadValue,
+            SlowError::WrongPhase { .. } => pong_status::WrongPhase,
+            SlowError::BadState { .. } => pong_status::BadStateBlock,
+        };
+        Self::new(status, error.to_string())
     }
 }
 

@@ -8,7 +8,7 @@ use crate::pointers::Out;
 use crate::status::pong_status;
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::{MutexGuard, TryLockError};
+use std::sync::{Mutex, MutexGuard, TryLockError};
 
 /// Runs an entry that has no world: sets the engine's floating-point environment, catches panics, and turns
 /// the outcome into a status and a message (empty on success).
@@ -32,6 +32,27 @@ pub(crate) fn guarded(call: impl FnOnce() -> Outcome) -> pong_status {
     })
 }
 
+/// Data behind a lock that C holds by an opaque pointer.
+pub(crate) trait Locked {
+    type Inner;
+    /// Noun for messages.
+    const NOUN: &'static str;
+    /// Function of pong.h that makes it.
+    const MADE_BY: &'static str;
+
+    fn inner(&self) -> &Mutex<Self::Inner>;
+}
+
+impl Locked for pong_world {
+    type Inner = Inner;
+    const NOUN: &'static str = "world";
+    const MADE_BY: &'static str = "pong_create_world()";
+
+    fn inner(&self) -> &Mutex<Inner> {
+        &self.inner
+    }
+}
+
 /// As [`guarded`], with the world: one call at a time. A panic poisons the world's lock, and so the world.
 ///
 /// # Safety
@@ -43,24 +64,30 @@ pub(crate) unsafe fn with_world(
     guarded(|| call(&mut *lock(world, "world")?))
 }
 
-/// Locks a world and returns its data, until the guard is dropped. `name` is that of the argument.
+/// Locks what a pointer names and returns its data, until the guard is dropped. `name` is that of the argument.
 ///
 /// # Safety
-/// As [`with_world`]; the world lives as long as the guard.
-pub(crate) unsafe fn lock<'w>(world: *const pong_world, name: &str) -> Outcome<MutexGuard<'w, Inner>> {
+/// `handle` is NULL or lives as long as the guard.
+pub(crate) unsafe fn lock<'w, H: Locked + 'w>(
+    handle: *const H,
+    name: &str,
+) -> Outcome<MutexGuard<'w, H::Inner>> {
+    let noun = H::NOUN;
     // SAFETY: by the contract of this function; shared access is enough, the lock guards the rest.
-    let Some(world) = (unsafe { world.as_ref() }) else {
-        let message = format!("`{name}` is NULL; give a world made by pong_create_world()");
+    let Some(handle) = (unsafe { handle.as_ref() }) else {
+        let message = format!("`{name}` is NULL; give a {noun} made by {}", H::MADE_BY);
         return Err(Failure::new(pong_status::NullArgument, message));
     };
-    world.inner.try_lock().map_err(|refused| match refused {
+    handle.inner().try_lock().map_err(|refused| match refused {
         TryLockError::WouldBlock => Failure::new(
             pong_status::Busy,
-            "the world is in another call; call it from one thread at a time and never from inside a law",
+            format!(
+                "the {noun} is in another call; call it from one thread at a time and never from inside a law"
+            ),
         ),
         TryLockError::Poisoned(_) => Failure::new(
             pong_status::Panic,
-            "the world is unusable after an earlier fault inside the library; destroy it",
+            format!("the {noun} is unusable after an earlier fault inside the library; destroy it"),
         ),
     })
 }

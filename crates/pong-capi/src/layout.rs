@@ -13,6 +13,9 @@ use crate::pair_monitor::{pong_contact_change, pong_pair_peaks};
 use crate::report::{pong_ledger, pong_report};
 use crate::seal::pong_seal_report;
 use crate::slopes::{pong_potential, pong_surface_slope};
+use crate::slow_input::pong_slow_input;
+use crate::slow_report::{pong_slow_difference, pong_slow_report};
+use crate::slow_settings::pong_slow_settings;
 use crate::states::pong_state;
 use crate::status::pong_status;
 use crate::step_plan::{pong_joints, pong_mass, pong_step_check, pong_step_plan};
@@ -92,6 +95,15 @@ layouts! {
     pong_potential { interfaces, energy, wrenches, stiffness }
     pong_surface_slope { interfaces, wrenches }
     pong_contact_tangent { normal_stiffness, normal_damping, tangential_stiffness, tangential_damping }
+    pong_slow_settings { theta, substeps_per_radian, substeps_max, delay_frames, reserved }
+    pong_slow_input {
+        interface, state, dynamics, reserved, mass, mobility, linear_acceleration, angular_acceleration,
+    }
+    pong_slow_report {
+        substeps, substeps_wanted, evaluations, warnings, flags, contacts, groups, reserved_flags, rate, theta_measured,
+        inserted, reserved,
+    }
+    pong_slow_difference { interface, position, rotation, linear_velocity, angular_velocity, inserted }
     pong_contact_change { pair, interfaces, begins, reserved }
     pong_pair_peaks {
         pair, interfaces, peak_normal_force, mean, contact_time, window, begins, ends, touches, reserved,

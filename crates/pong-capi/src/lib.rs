@@ -13,6 +13,7 @@
 //! | Contact state; Changes between frames; Further worlds | `contact_state.rs`; `surfaces.rs`; `clone.rs`, `continuation.rs` |
 //! | Response logs; Own force laws; User data | `log.rs`; `law_types.rs`, `laws.rs`; `user_data.rs` |
 //! | Workers; Diagnostics | `worker.rs`, `workers.rs`; `report.rs`, `tally.rs`, `accounts.rs` |
+//! | Slow hosts | `slow_settings.rs`, `slow_input.rs`, `slow_report.rs`, `slow_host.rs` |
 //!
 //! `phase.rs` keeps set-up and frames apart: it refuses calls in the wrong phase.
 //!
@@ -67,6 +68,10 @@ pub mod primitives;
 pub mod report;
 pub mod seal;
 pub mod slopes;
+pub mod slow_host;
+pub mod slow_input;
+pub mod slow_report;
+pub mod slow_settings;
 pub mod states;
 pub mod status;
 pub mod step_plan;

@@ -9,15 +9,15 @@ use crate::pointers::one;
 use crate::status::pong_status;
 use pong_advise::{Accuracy, GroupMass, Joints, SpringRates, StepPlan};
 
-/// Mass properties of a movable group, for the step adviser alone: no frame reads them.
+/// Mass properties of a movable group, for the step adviser and for slow hosts: no frame of a world reads them.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct pong_mass {
-    /// Mass, kg; INFINITY for a group that does not yield (fixed, or on a prescribed path).
+    /// Mass, kg; for the step adviser INFINITY if the group does not yield (fixed, or on a prescribed path).
     pub mass: f64,
     /// Inertia about the mass centre along the axes of the group frame, kg m^2: Ixx, Iyy, Izz, Ixy, Ixz, Iyz,
-    /// the products as elements of the tensor itself (Ixy = minus the integral of x y dm). All zero if it is
-    /// not known: lever arms are then left out.
+    /// the products as elements of the tensor itself (Ixy = minus the integral of x y dm). All zero, for
+    /// the step adviser alone, if it is not known: lever arms are then left out.
     pub inertia: [f64; 6],
     /// The mass centre in the group frame, m.
     pub mass_center: [f64; 3],

@@ -3,7 +3,7 @@
 use crate::advice::Advice;
 use crate::clock;
 use crate::config::pong_config;
-use crate::failure::Failure;
+use crate::failure::{Failure, Outcome};
 use crate::guard::guarded;
 pub use crate::handle::pong_world;
 use crate::handle::{Counters, Inner, UserData};
@@ -14,7 +14,7 @@ use crate::names::Names;
 use crate::phase::Phase;
 use crate::pointers::{Out, one};
 use crate::status::pong_status;
-use pong_engine::WorldBuilder;
+use pong_engine::{World, WorldBuilder};
 use std::ffi::CString;
 use std::sync::{Mutex, PoisonError, TryLockError};
 
@@ -81,15 +81,20 @@ pub unsafe extern "C" fn pong_destroy_world(world: *mut pong_world) -> pong_stat
         let world = unsafe { Box::from_raw(world) };
         let mut inner = world.inner.into_inner().unwrap_or_else(PoisonError::into_inner);
         let Phase::Frames(world) = &mut inner.phase else { return Ok(()) };
-        match world.end_workers() {
-            0 => Ok(()),
-            left => {
-                let message = format!(
-                    "the world is destroyed, but {left} of its workers had not ended in time: the system does not run \
-                     them; keep the `user` data of the laws and the library until they have ended"
-                );
-                Err(Failure::new(pong_status::WorkerLeft, message))
-            }
-        }
+        end_workers(world, "world")
     })
+}
+
+/// Ends the workers of a world that is being destroyed. `noun` names what had it.
+pub(crate) fn end_workers(world: &mut World, noun: &str) -> Outcome {
+    match world.end_workers() {
+        0 => Ok(()),
+        left => {
+            let message = format!(
+                "the {noun} is destroyed, but {left} of its workers had not ended in time: the system does not run \
+                 them; keep the `user` data of the laws and the library until they have ended"
+            );
+            Err(Failure::new(pong_status::WorkerLeft, message))
+        }
+    }
 }

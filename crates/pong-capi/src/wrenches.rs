@@ -113,7 +113,7 @@ pub unsafe extern "C" fn pong_get_pair_wrench(
 }
 
 /// Returns true if the wrench is given along the axes of the common frame.
-fn along_common_axes(frame: pong_reference_frame) -> Outcome<bool> {
+pub(crate) fn along_common_axes(frame: pong_reference_frame) -> Outcome<bool> {
     match frame {
         PONG_REFERENCE_FRAME_GROUP => Ok(false),
         PONG_REFERENCE_FRAME_COMMON => Ok(true),

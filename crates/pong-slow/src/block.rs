@@ -22,6 +22,14 @@ use std::collections::VecDeque;
 const MAGIC: &[u8; 8] = b"pongslow";
 const VERSION: u64 = 1;
 
+/// Size of the largest block, bytes, with this number of bodies, this delay and this largest contact state.
+pub(crate) fn size_max(bodies: usize, delay_frames: u32, contact: usize) -> usize {
+    const HEADER_AND_HASH: usize = 8 * 8;
+    const BODY: usize = 8 * (3 + 3 * (7 + 6));
+    const IMPULSE: usize = 8 * 6;
+    HEADER_AND_HASH + bodies * (BODY + IMPULSE * delay_frames as usize) + contact
+}
+
 /// Writes a block.
 pub(crate) fn write(memory: &Memory, contact: &[u8], scene: u64) -> Vec<u8> {
     let mut out = MAGIC.to_vec();

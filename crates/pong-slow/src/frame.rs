@@ -59,6 +59,8 @@ pub(crate) fn compute(
 ) -> Result<Computed, SlowError> {
     require_frame(length)?;
     let inputs = in_order(world, inputs)?;
+    // Refuses states that are not finite and quaternions that are not of unit length.
+    inputs.iter().try_for_each(|input| world.set_state(input.interface, &input.state))?;
     let mut frame = Frame::new(world, settings, (memory, block), length, &inputs)?;
     frame.report.groups = inserted(world, memory, &frame.bodies)?;
     frame.report.inserted = frame.report.groups.iter().map(|group| group.inserted).sum();
@@ -148,6 +150,7 @@ impl<'f> Frame<'f> {
                 Outcome::TooCoarse(rate) => rate_square = rate,
                 Outcome::Ends(ends) => {
                     self.report.substeps = substeps;
+                    self.report.contacts = ends.touches.len() as u32;
                     self.report.rate = ends.rate_square.sqrt();
                     self.report.substeps_wanted = self.substeps(ends.rate_square).max(substeps);
                     let status = &mut self.report.status;

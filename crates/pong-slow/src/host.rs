@@ -38,12 +38,26 @@ impl SlowHost {
     /// [`World::try_clone`](pong_engine::World::try_clone).
     pub fn new(world: &World, settings: Settings) -> Result<Self, SlowError> {
         settings.require_valid()?;
+        Self::with_world(world.try_clone()?, settings)
+    }
+
+    /// A slow host that owns this world, and begins with its contact state: for worlds with laws of the caller's, which
+    /// [`World::try_clone_with_laws`](pong_engine::World::try_clone_with_laws) clones.
+    ///
+    /// # Errors
+    /// [`SlowError::BadSetting`] for settings outside their ranges.
+    pub fn with_world(world: World, settings: Settings) -> Result<Self, SlowError> {
+        settings.require_valid()?;
         let mut block = Vec::new();
         world.save_state_packed(&mut block);
-        let world = world.try_clone()?;
         let (memory, report) = (Memory::default(), Report::default());
         let (wrenches, orientations) = (Vec::new(), Vec::new());
         Ok(Self { world, settings, memory, block, pending: None, report, wrenches, orientations })
+    }
+
+    /// The world of the copies.
+    pub fn into_world(self) -> World {
+        self.world
     }
 
     /// Settings of the run.
@@ -87,7 +101,7 @@ impl SlowHost {
         self.pending = None;
         self.world.restore_state(&self.block)?;
         self.world.set_states(states)?;
-        let flags = self.world.evaluate()?.status;
+        let frame = self.world.evaluate()?;
         let objects: Vec<_> = self.world.scene().objects().collect();
         self.wrenches.clear();
         self.orientations.clear();
@@ -98,7 +112,8 @@ impl SlowHost {
                 self.orientations.push(pose.orientation);
             }
         }
-        self.report = Report { evaluations: 1, status: plain_status(flags), ..Report::default() };
+        let (contacts, status) = (frame.contacts, plain_status(frame.status));
+        self.report = Report { evaluations: 1, contacts, status, ..Report::default() };
         self.pending = Some(Pending::Plain);
         Ok(&self.report)
     }
@@ -121,6 +136,11 @@ impl SlowHost {
         }
         self.world.save_state_packed(&mut self.block);
         Ok(())
+    }
+
+    /// Drops the frame that was evaluated last, so that it cannot be committed.
+    pub fn discard(&mut self) {
+        self.pending = None;
     }
 
     /// [`evaluate`](Self::evaluate) and [`commit`](Self::commit).
@@ -159,6 +179,12 @@ impl SlowHost {
         let common = self.wrench_common(interface)?;
         let back = self.orientations[interface.index()].inverse();
         Ok(Wrench { force: back * common.force, moment: back * common.moment })
+    }
+
+    /// Size of the largest state that this host can save, bytes.
+    pub fn state_size(&self) -> usize {
+        let bodies = self.world.inspect().group_count();
+        block::size_max(bodies, self.settings.delay_frames, self.world.state_size())
     }
 
     /// Memory between frames, with the contact state, as bytes.

@@ -145,6 +145,11 @@ fn inverse_inertia(inertia: &Mat3) -> Option<Mat3> {
     symmetric.then(|| cholesky.inverse())
 }
 
+/// Cause and cure of a mobility with a negative eigenvalue.
+fn gains() -> String {
+    "an impulse would move the body against itself; give a mobility without negative eigenvalues".to_owned()
+}
+
 fn fault_of_mobility(mobility: &Matrix6<f64>) -> Option<String> {
     if mobility.iter().any(|x| !x.is_finite()) {
         return Some("it is not finite; give 36 finite numbers".to_owned());
@@ -152,6 +157,10 @@ fn fault_of_mobility(mobility: &Matrix6<f64>) -> Option<String> {
     // Rows scaled to a unit diagonal: metres and radians then compare.
     let scale = mobility.diagonal().map(|x| if x > 0.0 { 1.0 / x.sqrt() } else { 0.0 });
     let scaled = Matrix6::from_fn(|i, j| mobility[(i, j)] * scale[i] * scale[j]);
+    let too_large = |x: &f64| x.is_nan() || x.abs() > 1.0 + TOLERANCE;
+    if scaled.iter().any(too_large) {
+        return Some(gains());
+    }
     if (scaled - scaled.transpose()).amax() > TOLERANCE {
         return Some(
             "it is not symmetric; give velocity per impulse about one point along one set of axes".to_owned(),
@@ -161,10 +170,7 @@ fn fault_of_mobility(mobility: &Matrix6<f64>) -> Option<String> {
     let outside = (0..6).any(|i| (0..6).any(|j| scale[i] * scale[j] == 0.0 && mobility[(i, j)] != 0.0));
     let least = SymmetricEigen::new(scaled).eigenvalues.min();
     if negative || outside || least < -TOLERANCE {
-        return Some(
-            "an impulse would move the body against itself; give a mobility without negative eigenvalues"
-                .to_owned(),
-        );
+        return Some(gains());
     }
     if mobility.amax() == 0.0 {
         return Some("it is zero; give `Prescribed` for a body that contact does not move".to_owned());

@@ -49,6 +49,8 @@ pub struct Report {
     pub substeps_wanted: u32,
     /// Evaluations of the engine, those of the substeps included.
     pub evaluations: u32,
+    /// Contacts of the copies at the end of the frame.
+    pub contacts: u32,
     /// Largest rate of the contacts in the frame, rad/s; 0 if nothing touched.
     pub rate: f64,
     /// Warnings of the frame.

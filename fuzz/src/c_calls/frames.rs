@@ -69,7 +69,7 @@ impl Session<'_> {
         }
     }
 
-    fn near(&mut self) -> pong_state {
+    pub fn near(&mut self) -> pong_state {
         let mut state = pong_default_state();
         state.position = [(); 3].map(|()| self.input.small(0.3));
         let turn = self.input.byte();

@@ -10,7 +10,7 @@
 //! | `host.rs` | a world and the harness's knowledge of it |
 //! | `laws.rs` | laws by callback, well behaved or not |
 //! | `set_up.rs`, `step_plans.rs`, `look_up.rs`, `frames.rs`, `between.rs`, `logs.rs` | the calls, by phase |
-//! | `accounts.rs`, `tangents.rs` | energy accounts, tangents of a frame |
+//! | `accounts.rs`, `tangents.rs`, `slow_hosts.rs` | energy accounts, tangents of a frame, slow hosts |
 //! | `misuse.rs` | two threads on one world |
 //!
 //! Some inputs run twice, the second time without the calls that were refused the first time. Every frame
@@ -26,6 +26,7 @@ mod look_up;
 mod misuse;
 mod session;
 mod set_up;
+mod slow_hosts;
 mod step_plans;
 mod tangents;
 
@@ -85,7 +86,8 @@ impl Session<'_> {
             249 => self.two_threads(),
             250..=252 => self.switch_world(),
             253 => self.end_world(),
-            254.. => self.change_laws(),
+            254 => self.change_laws(),
+            255 => self.slow_host(),
         }
     }
 }

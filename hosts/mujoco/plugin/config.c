@@ -5,7 +5,8 @@
 #include <string.h>
 
 const char *const contact_attributes[] = {"objects", "pairs", "bodies", "dir",   "prefix",           "text1",
-                                          "text2",   "text3", "text4",  "check_step", "contact_capacity", "filters"};
+                                          "text2",   "text3", "text4",  "check_step", "contact_capacity", "filters",
+                                          "substeps_max"};
 const int contact_attribute_count = sizeof contact_attributes / sizeof contact_attributes[0];
 
 /* Contact capacity of a frame if the MJCF gives none: the state of a contact takes 160 bytes in every mjData
@@ -81,6 +82,21 @@ static int read_capacity(contact_config *config, const char *value, message *why
     return 1;
 }
 
+static int read_substeps(contact_config *config, const char *value, message *why)
+{
+    char *end;
+    unsigned long number;
+    config->substeps_max = 0;
+    if (*value == '\0')
+        return 1;
+    errno = 0;
+    number = strtoul(value, &end, 10);
+    if (errno != 0 || *end != '\0' || *value == '-' || number < 1 || number > MAX_SUBSTEPS)
+        return fail(why, "key `substeps_max`: `%s` is no whole number from 1 to %d", value, MAX_SUBSTEPS);
+    config->substeps_max = (uint32_t)number;
+    return 1;
+}
+
 static int read_check_step(contact_config *config, const char *value, message *why)
 {
     static const char *const words[] = {"false", "true", "notes"};
@@ -106,6 +122,7 @@ int read_config(contact_config *config, const mjModel *m, int instance, message 
     for (i = 0; i < TEXT_COUNT; i++)
         config->texts[i] = value_of(m, instance, text_keys[i]);
     if (!read_capacity(config, value_of(m, instance, "contact_capacity"), why) ||
+        !read_substeps(config, value_of(m, instance, "substeps_max"), why) ||
         !read_check_step(config, value_of(m, instance, "check_step"), why) ||
         !read_entries(&config->objects, "objects", value_of(m, instance, "objects"), '=', why) ||
         !read_entries(&config->pairs, "pairs", value_of(m, instance, "pairs"), ',', why) ||

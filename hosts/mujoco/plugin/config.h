@@ -23,6 +23,9 @@ enum { TEXT_COUNT = 4 };
 /* Largest contact_capacity. */
 enum { MAX_CAPACITY = 65536 };
 
+/* Largest substeps_max. */
+enum { MAX_SUBSTEPS = 1000000 };
+
 /* Reports on the time step, in the order of the words `false`, `true` and `notes`. */
 enum { CHECK_OFF, CHECK_WARNINGS, CHECK_WITH_NOTES };
 
@@ -34,6 +37,7 @@ typedef struct contact_config {
     const char *folder, *prefix;
     const char *texts[TEXT_COUNT]; /* models written into the MJCF; "" if there is none */
     uint64_t capacity;
+    uint32_t substeps_max; /* 0 without the key: contact is evaluated once a step */
     int checks_step; /* CHECK_... */
 } contact_config;
 

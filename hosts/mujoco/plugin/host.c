@@ -8,6 +8,7 @@
 
 static void close_host(contact_host *host)
 {
+    close_slow(&host->slow);
     free(host->states);
     free(host->wrenches);
     free(host->bytes);
@@ -16,6 +17,17 @@ static void close_host(contact_host *host)
     pong_destroy_world(host->at.world);
     give_back_origin(host->origin);
     free(host);
+}
+
+/* Keeps the state of copies that have no history. */
+static int keep_slow_start(contact_host *host, message *why)
+{
+    host->no_past = malloc(host->at.state_size);
+    if (host->no_past == NULL)
+        return fail(why, "no memory for %u bytes of contact state", (unsigned)host->at.state_size);
+    if (pong_save_slow_state(host->slow.host, host->no_past, host->at.state_size, &host->no_past_size) != PONG_STATUS_OK)
+        return fail_by_library(why, "state of the copies");
+    return 1;
 }
 
 /* Allocates the memory for steps, and the contact state without history. */
@@ -27,6 +39,8 @@ static int take_memory(contact_host *host, message *why)
     host->bytes = malloc(room);
     if (host->states == NULL || host->wrenches == NULL || host->bytes == NULL)
         return fail(why, "no memory for %u bytes of contact state", (unsigned)room);
+    if (host->slow.host != NULL)
+        return keep_slow_start(host, why);
     if (pong_contact_state_used(host->at.world, &host->no_past_size) != PONG_STATUS_OK)
         return fail_by_library(why, "contact state");
     host->no_past = malloc(host->no_past_size);
@@ -62,7 +76,7 @@ int measure_instance(const mjModel *m, int instance, int *state_numbers, int *gr
     /* This function is called when a model is compiled. */
     forget_origins(m);
     done = read_config(&config, m, instance, &ignored) && open_world(&w, &config, &ignored) && 
-           seal_world(&w, &config, NULL, &ignored);
+           seal_world(&w, &config, NULL, &ignored) && (w.substeps_max == 0 || measure_slow(&w.state_size, &w, &ignored));
     *groups = (int)w.group_count;
     *state_numbers = done ? state_length(w.group_count, w.state_size) : 0;
     close_world(&w);
@@ -115,9 +129,11 @@ contact_host *make_host(const mjModel *m, const mjData *d, int instance)
         warn(mj_id2name(m, mjOBJ_PLUGIN, instance), "no memory");
         return NULL;
     }
-    host->origin = take_origin(m, instance, &why);
-    if (host->origin == NULL || !clone_origin(host->origin, &host->at, &why) || !take_memory(host, &why) ||
-        !refuse_changed_files(host, m, instance, &why)) {
+    host->is_silent = is_making_scratch();
+    host->origin = host->is_silent ? NULL : take_origin(m, instance, &why);
+    if (!host->is_silent && (host->origin == NULL || !clone_origin(host->origin, &host->at, &why) ||
+        !open_slow(&host->slow, &host->at, m, &why) || !take_memory(host, &why) ||
+        !refuse_changed_files(host, m, instance, &why))) {
         warn(mj_id2name(m, mjOBJ_PLUGIN, instance), why.text);
         close_host(host);
         return NULL;

@@ -3,6 +3,7 @@
 #define PONG_CONTACT_HOST_H
 
 #include "origin.h"
+#include "slow.h"
 #include "state.h"
 
 typedef struct contact_host {
@@ -12,6 +13,8 @@ typedef struct contact_host {
 
     contact_origin *origin;
     contact_world at;             /* a clone of its origin's world; the rest is the origin's */
+    int is_silent;                /* of scratch data, which have no contact; the rest is then empty */
+    slow_copies slow;             /* empty without the key `substeps_max` */
     pong_state *states;
     unsigned char *bytes;         /* of one contact state */
     unsigned char *no_past;       /* the contact state of a world that has just been sealed */
@@ -29,7 +32,7 @@ typedef struct contact_host {
     uint32_t contact_count, flags;
     int status;                   /* PONG_STATUS_... of the last evaluation or commit */
 
-    int warned_limit, warned_tunnelling, warned_depth, warned_failure; /* in this run */
+    int warned_limit, warned_tunnelling, warned_depth, warned_failure, warned_slow; /* in this run */
 } contact_host;
 
 /* Builds the world of an instance for an mjData, replacing an existing one. Returns NULL after a warning. */

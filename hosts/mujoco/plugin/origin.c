@@ -1,5 +1,7 @@
 #include "origin.h"
 
+#include "slow.h"
+
 #include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
@@ -41,8 +43,10 @@ static int build_world(contact_world *w, const mjModel *m, int instance, message
     contact_config config;
     int done = read_config(&config, m, instance, why) && open_world(w, &config, why) && bind_bodies(w, &config, m, why) &&
                refuse_double_pairs(w, &config, m, instance, why) && refuse_sleep(w, m, why) &&
-               (config.checks_step == CHECK_OFF || plan_step(w, m, why)) &&
-               seal_world(w, &config, mj_id2name(m, mjOBJ_PLUGIN, instance), why);
+               (w->substeps_max == 0 || refuse_integrator(m, why)) &&
+               (config.checks_step == CHECK_OFF || w->substeps_max > 0 || plan_step(w, m, why)) &&
+               seal_world(w, &config, mj_id2name(m, mjOBJ_PLUGIN, instance), why) &&
+               (w->substeps_max == 0 || measure_slow(&w->state_size, w, why));
     close_config(&config);
     return done;
 }

@@ -68,17 +68,23 @@ static void write_sensors(const contact_host *host, const mjModel *m, mjData *d)
 static void compute(const mjModel *m, mjData *d, int instance, int capability)
 {
     contact_host *host = find_host(m, d, instance);
-    int done = host != NULL && evaluate(host, m, d);
+    int done;
+    if (host == NULL || host->is_silent)
+        return;
+    /* Copies follow all forces, which may have changed although no state did. */
+    if (host->slow.host != NULL && capability == mjPLUGIN_PASSIVE)
+        host->has_result = 0;
+    done = evaluate(host, m, d);
     if (capability == mjPLUGIN_PASSIVE && done)
         apply_wrenches(host, m, d);
-    if (capability == mjPLUGIN_SENSOR && host != NULL)
+    if (capability == mjPLUGIN_SENSOR)
         write_sensors(host, m, d);
 }
 
 static void advance(const mjModel *m, mjData *d, int instance)
 {
     contact_host *host = find_host(m, d, instance);
-    if (host != NULL)
+    if (host != NULL && !host->is_silent)
         commit(host, m, d);
 }
 

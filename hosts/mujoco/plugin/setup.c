@@ -144,6 +144,7 @@ int open_world(contact_world *w, const contact_config *config, message *why)
     size_t i;
     memset(w, 0, sizeof *w);
     settings.contact_capacity = config->capacity;
+    w->substeps_max = config->substeps_max;
     if (pong_create_world(&settings, &w->world) != PONG_STATUS_OK)
         return fail_by_library(why, "creating the world");
     if (!add_objects(w, config, why))

@@ -12,7 +12,8 @@ typedef struct contact_world {
     pong_interface_id *interfaces; /* in the order of `objects`, and of pong_list_interfaces() in each */
     char **names;                  /* of the groups: `chaser`, `chaser/ring` */
     int *bodies;                   /* MuJoCo body of each group; all -1 before bind_bodies() */
-    size_t state_size;             /* largest contact state, bytes; 0 before the seal */
+    uint32_t substeps_max;         /* of a step with copies; 0 without them */
+    size_t state_size;             /* largest state between steps, bytes; 0 before the seal */
 } contact_world;
 
 /* Creates the world with its models, Objects and pairs. Returns 1, or 0 with a message; call close_world() in

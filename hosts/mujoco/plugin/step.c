@@ -70,6 +70,24 @@ static void warn_of_limits(contact_host *host, const mjModel *m, const pong_repo
     }
 }
 
+/* Warns of steps that the copies could not follow, or for which they were not made. */
+static void warn_of_slow(contact_host *host, const mjModel *m, const pong_slow_report *report)
+{
+    message text;
+    if (host->warned_slow || (report->warnings & (PONG_SLOW_SUBSTEP_LIMIT | PONG_SLOW_THETA_MISMATCH)) == 0)
+        return;
+    host->warned_slow = 1;
+    if ((report->warnings & PONG_SLOW_SUBSTEP_LIMIT) != 0)
+        fail(&text, "the contacts of a step need %u substeps, and substeps_max is %u: %s. Raise substeps_max or shorten the "
+                    "timestep", (unsigned)report->substeps_wanted, (unsigned)host->at.substeps_max,
+             (report->warnings & PONG_SLOW_UNRESOLVED) != 0 ? "the wrench is that of one implicit step, without rebound"
+                                                            : "rebounds are less accurate");
+    else
+        fail(&text, "bodies did not move as semi-implicit Euler moves them (theta is %.2f, not 1), and contact may gain energy; set "
+                    "positions and velocities only together with mj_resetData()", report->theta_measured);
+    warn(name_of(m, host), text.text);
+}
+
 /* ---- states in, contact state in and out */
 
 static void read_states(contact_host *host, const mjModel *m, const mjData *d)
@@ -103,7 +121,10 @@ static int restore_past(contact_host *host, const mjModel *m, const contact_past
         bytes = host->bytes;
         size = past->used;
     }
-    status = pong_restore_contact_state(host->at.world, bytes, size);
+    if (host->slow.host != NULL)
+        status = pong_restore_slow_state(host->slow.host, bytes, size);
+    else
+        status = pong_restore_contact_state(host->at.world, bytes, size);
     if (status != PONG_STATUS_OK)
         return fail_step_by_library(host, m, status);
     host->has_key = 1;
@@ -155,18 +176,46 @@ static int take_result(contact_host *host, const mjModel *m, pong_report *report
     return 1;
 }
 
-static int compute_contacts(contact_host *host, const mjModel *m, const contact_past *past, const mjtNum *state)
+static int evaluate_world(contact_host *host, const mjModel *m)
 {
     pong_report report;
-    pong_status status;
-    if (!restore_past(host, m, past, state))
-        return 0;
-    status = pong_set_states(host->at.world, host->at.interfaces, host->states, host->at.group_count);
+    pong_status status = pong_set_states(host->at.world, host->at.interfaces, host->states, host->at.group_count);
     if (status == PONG_STATUS_OK)
         status = pong_evaluate(host->at.world);
     if (status != PONG_STATUS_OK)
         return fail_step_by_library(host, m, status);
     return take_result(host, m, &report);
+}
+
+static int compute_contacts(contact_host *host, const mjModel *m, const contact_past *past, const mjtNum *state)
+{
+    return restore_past(host, m, past, state) && evaluate_world(host, m);
+}
+
+/* Stores the result of the slow host's evaluation. */
+static int take_slow_result(contact_host *host, const mjModel *m)
+{
+    pong_slow_report report;
+    pong_status status = pong_get_slow_wrenches(host->slow.host, host->at.interfaces, PONG_REFERENCE_FRAME_COMMON, host->wrenches,
+                                                host->at.group_count);
+    if (status == PONG_STATUS_OK)
+        status = pong_get_slow_report(host->slow.host, &report);
+    if (status != PONG_STATUS_OK)
+        return fail_step_by_library(host, m, status);
+    host->contact_count = report.contacts;
+    host->flags = report.flags;
+    host->status = PONG_STATUS_OK;
+    warn_of_slow(host, m, &report);
+    return 1;
+}
+
+static int compute_slow(contact_host *host, const mjModel *m, const mjData *d, const contact_past *past, const mjtNum *state)
+{
+    pong_status status;
+    if (!restore_past(host, m, past, state))
+        return 0;
+    status = evaluate_slow(&host->slow, &host->at, m, d, host->states);
+    return status == PONG_STATUS_OK ? take_slow_result(host, m) : fail_step_by_library(host, m, status);
 }
 
 static void keep_result(contact_host *host, uint64_t key, uint64_t seen)
@@ -187,7 +236,10 @@ int evaluate(contact_host *host, const mjModel *m, const mjData *d)
     seen = hash_states(host->states, host->at.group_count);
     if (host->has_result && host->result_key == past.key && host->result_seen == seen)
         return 1;
-    if (past.key != 0 && past.seen == seen) {
+    if (host->slow.host != NULL) {
+        if (!compute_slow(host, m, d, &past, state))
+            return 0;
+    } else if (past.key != 0 && past.seen == seen) {
         /* The states are those of the last commit, so its wrenches apply. They are also more accurate where
          * friction has just slipped, and those of `pong run`. */
         read_wrenches(host->wrenches, state, host->at.group_count);
@@ -201,6 +253,12 @@ int evaluate(contact_host *host, const mjModel *m, const mjData *d)
     return 1;
 }
 
+static void begin_run(contact_host *host, const contact_past *past)
+{
+    if (past->key == 0)
+        host->warned_limit = host->warned_tunnelling = host->warned_depth = host->warned_failure = host->warned_slow = 0;
+}
+
 /* Commits host->states and writes the new contact memory to the state. */
 static void commit_states(contact_host *host, const mjModel *m, mjtNum *state)
 {
@@ -211,8 +269,7 @@ static void commit_states(contact_host *host, const mjModel *m, mjtNum *state)
 
     if (!read_known_past(&past, host, m, state) || !restore_past(host, m, &past, state))
         return;
-    if (past.key == 0)
-        host->warned_limit = host->warned_tunnelling = host->warned_depth = host->warned_failure = 0;
+    begin_run(host, &past);
     status = pong_set_states(host->at.world, host->at.interfaces, host->states, host->at.group_count);
     if (status == PONG_STATUS_OK)
         status = pong_commit(host->at.world);
@@ -237,11 +294,52 @@ static void commit_states(contact_host *host, const mjModel *m, mjtNum *state)
     }
 }
 
+/* Commits the frame of the slow host that was evaluated for the states in host->states. */
+static void commit_slow(contact_host *host, const mjModel *m, mjtNum *state)
+{
+    const uint64_t seen = hash_states(host->states, host->at.group_count);
+    contact_past past;
+    pong_status status;
+    size_t used;
+    if (!read_known_past(&past, host, m, state))
+        return;
+    begin_run(host, &past);
+    if (!host->has_result || host->result_key != past.key || host->result_seen != seen) {
+        fail_step(host, m, PONG_STATUS_WRONG_PHASE,
+                  "no contact was computed for the beginning of this step; step with mj_step(), or mj_step1() and mj_step2()");
+        return;
+    }
+    status = pong_commit_slow(host->slow.host);
+    host->has_key = 0;
+    if (status == PONG_STATUS_OK)
+        status = pong_save_slow_state(host->slow.host, host->bytes, host->at.state_size, &used);
+    if (status != PONG_STATUS_OK) {
+        fail_step_by_library(host, m, status);
+        return;
+    }
+    past.seen = seen;
+    past.key = next_key(past.key, seen);
+    past.used = (uint32_t)used;
+    past.contacts = host->contact_count;
+    past.flags = host->flags;
+    memset(host->bytes + used, 0, sizeof(uint32_t));
+    write_state(state, &past, host->wrenches, host->at.group_count, host->bytes, host->at.state_size);
+    host->has_key = 1;
+    host->key = past.key;
+    host->has_result = 0;
+}
+
 void commit(contact_host *host, const mjModel *m, mjData *d)
 {
     saved_kinematics saved;
     if (!refuse_late_sleep(host, m))
         return;
+    if (host->slow.host != NULL) {
+        /* The kinematics are those of the beginning of the step, for which the frame was computed. */
+        read_states(host, m, d);
+        commit_slow(host, m, state_of(m, d, host));
+        return;
+    }
     saved = update_kinematics(m, d);
     read_states(host, m, d);
     commit_states(host, m, state_of(m, d, host));
@@ -276,7 +374,8 @@ size_t list_contacts(contact_host *host, const mjModel *m, mjData *d)
     saved = update_kinematics(m, d);
     read_states(host, m, d);
     restore_kinematics(m, d, saved);
-    if (!compute_contacts(host, m, &past, state) || pong_contact_count(host->at.world, &count) != PONG_STATUS_OK ||
+    /* With copies the world has no memory of its own: its bristles are drawn relieved. */
+    if (!(host->slow.host != NULL ? evaluate_world(host, m) : compute_contacts(host, m, &past, state)) || pong_contact_count(host->at.world, &count) != PONG_STATUS_OK ||
         !make_room(host, count))
         return 0;
     return pong_get_contacts(host->at.world, host->contacts, count, &count) == PONG_STATUS_OK ? count : 0;

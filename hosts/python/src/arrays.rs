@@ -72,7 +72,7 @@ pub(crate) fn described(given: &Bound<'_, PyAny>) -> String {
 }
 
 /// States given as rows of 13 numbers, appended to `out`.
-fn states(view: &ArrayView2<'_, f64>, ids: &[InterfaceId], out: &mut Vec<(InterfaceId, State)>) {
+pub(crate) fn states(view: &ArrayView2<'_, f64>, ids: &[InterfaceId], out: &mut Vec<(InterfaceId, State)>) {
     for (row, id) in view.rows().into_iter().zip(ids) {
         let part = |from: usize| std::array::from_fn(|i| row[from + i]);
         let state = State {

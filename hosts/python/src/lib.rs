@@ -10,6 +10,7 @@
 //! | `authored.rs`, `written.rs`, `shapes.rs`, `joined.rs` | model files as data, their text and schema, checks of single shapes, joined files: python/pong/model.py |
 //! | `distance.rs` | distance of two movable groups |
 //! | `tangents.rs` | derivatives of wrenches and of the forces of contacts |
+//! | `slow_host.rs` | wrenches for hosts that call once in a long frame |
 //! | `pair_monitor.rs` | begin and end of contact, peaks over several frames |
 //! | `setup.rs`, `builder.rs` | state and calls of a set-up |
 //! | `sealed.rs`, `world.rs`, `world_slopes.rs` | state and calls of a sealed world: frames, derivatives of wrenches |
@@ -44,6 +45,7 @@ mod sealed;
 mod setup;
 mod shapes;
 mod simulation;
+mod slow_host;
 mod tangents;
 mod trade;
 mod tune;
@@ -81,6 +83,8 @@ fn _pong(module: &Bound<'_, PyModule>) -> PyResult<()> {
     add_class::<tangents::Tangent>(module)?;
     add_class::<tangents::Potential>(module)?;
     add_class::<tangents::SurfaceSlope>(module)?;
+    add_class::<slow_host::SlowHost>(module)?;
+    add_class::<slow_host::SlowReport>(module)?;
     add_class::<scene::Scene>(module)?;
     add_class::<simulation::Simulation>(module)?;
     add_class::<run::Run>(module)?;

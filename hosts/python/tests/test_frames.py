@@ -551,3 +551,68 @@ def test_foundation_and_resistance_can_be_set():
     w.set_surface(ball, "rubber", {"foundation": None, "area": 0.01})
     with pytest.raises(pong.BadValueError, match="not both"):
         w.set_surface(ball, "rubber", {"foundation": 1e7})
+
+
+def test_slow_host():
+    """A ball of 1 kg falls on the floor in frames of 20 ms: by the law of the contact, where a held wrench would throw it up."""
+    made = world()
+    slow = pong.SlowHost(made, substeps_max=5000)
+    ball, floor = made.interfaces
+    assert repr(slow) == "<pong.SlowHost of 2 Interfaces>"
+    row, accelerations, frame = touching(-1e-3), np.zeros((2, 6)), 0.02
+    accelerations[0, 2] = -9.81
+    with pytest.raises(pong.BadValueError, match="mass of `ball/ball`: it is missing"):
+        slow.step(frame, row, accelerations)
+    slow.prescribed(floor)
+    slow.free(ball, mass=-1.0, inertia=np.eye(3))
+    with pytest.raises(pong.BadValueError, match="mass of `ball/ball`: it is -1 kg"):
+        slow.step(frame, row, accelerations)
+    slow.free(ball, mass=1.0, inertia=4e-3 * np.eye(3))
+    with pytest.raises(pong.PhaseError, match="evaluate a frame first"):
+        slow.wrenches()
+    with pytest.raises(pong.BadValueError, match="length of the frame"):
+        slow.step(0.0, row, accelerations)
+    with pytest.raises(pong.PhaseError):
+        slow.commit()
+    fastest = 0.0
+    for number in range(20):
+        kept = slow.save_state()
+        report = slow.step(frame, row, accelerations)
+        wrench = slow.wrenches()
+        slow.restore_state(kept)
+        assert slow.evaluate(frame, row, accelerations) == report
+        slow.commit()
+        np.testing.assert_array_equal(slow.wrenches(out=np.empty((2, 6))), wrench)
+        np.testing.assert_array_equal(slow.wrenches("group"), wrench)  # nothing turns
+        assert report.substeps >= 8 and not (report.substep_limit or report.unresolved or report.theta_mismatch)
+        assert abs(report.inserted) < 1e-9 and report.differences.shape == (2, 13) and report.status == 0
+        row[0, 7:10] += frame * (wrench[0, :3] + accelerations[0, :3])
+        row[0, :3] += frame * row[0, 7:10]
+        fastest = max(fastest, row[0, 9])
+    assert report.theta_measured == pytest.approx(1.0, abs=1e-6)
+    assert 0.0 < fastest < np.sqrt(2.0 * 9.81 * 1e-3)
+    with pytest.raises(pong.ContactStateError, match="damaged"):
+        slow.restore_state(kept[:-1])
+    with pytest.raises(pong.BadValueError, match="theta"):
+        pong.SlowHost(made, theta=2.0)
+
+
+def test_slow_host_of_a_jointed_body():
+    """A ball that can only rise: its mobility holds it against the floor as its mass would."""
+    made = world()
+    slow = pong.SlowHost(made)
+    mobility = np.zeros((6, 6))
+    mobility[2, 2] = 0.5
+    slow.jointed(made.interfaces[0], mobility)
+    slow.prescribed(made.interfaces[1])
+    accelerations = np.zeros((2, 6))
+    accelerations[0, 2] = -9.81
+    slow.step(0.05, touching(2.0 * 9.81 / STIFFNESS), accelerations)
+    assert slow.wrenches("group")[0, 2] == pytest.approx(2.0 * 9.81, rel=1e-6)
+    slow.jointed(made.interfaces[0], -mobility)
+    with pytest.raises(pong.BadValueError, match="mobility of `ball/ball`: an impulse would move the body against itself"):
+        slow.step(0.05, touching(1e-3), accelerations)
+    with pytest.raises(pong.BadValueError, match=r"give one of shape \(6, 6\)"):
+        slow.jointed(made.interfaces[0], np.eye(3))
+    with pytest.raises(pong.NotFoundError):
+        slow.prescribed(world().interfaces[0])

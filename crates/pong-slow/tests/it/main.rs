@@ -4,6 +4,7 @@ mod block;
 mod bounce;
 mod calls;
 mod crowded;
+mod dispersed;
 mod hinge;
 mod late;
 mod rig;

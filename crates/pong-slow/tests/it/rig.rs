@@ -157,6 +157,25 @@ impl Rig {
         report
     }
 
+    /// A frame with the wrenches of the engine at the present states, held.
+    pub fn step_plainly(&mut self) {
+        let states: Vec<_> =
+            self.interfaces.iter().zip(&self.bodies).map(|(id, body)| (*id, body.state())).collect();
+        self.slow.evaluate_states(&states).unwrap();
+        self.slow.commit().unwrap();
+        let wrench = |interface: &InterfaceId| self.slow.wrench_common(*interface).unwrap();
+        let held: Vec<_> = self.interfaces.iter().map(|id| (wrench(id).force, wrench(id).moment)).collect();
+        self.hold(&held);
+    }
+
+    /// Moves all bodies without forces for a time, s.
+    pub fn fly(&mut self, time: f64) {
+        for body in &mut self.bodies {
+            body.position += body.velocity * time;
+            body.orientation = UnitQuaternion::from_scaled_axis(body.turning * time) * body.orientation;
+        }
+    }
+
     fn hold(&mut self, wrenches: &[(Vec3, Vec3)]) {
         let (h, theta) = (self.frame, self.theta);
         for (body, (force, moment)) in self.bodies.iter_mut().zip(wrenches) {

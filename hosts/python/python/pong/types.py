@@ -4,6 +4,7 @@
 |---|---|
 | `AddedModel`, `Object`, `Pair`, `Interface` | `WorldBuilder`, `World`: what was set up, and its number |
 | `FrameReport`, `ContactChange`, `PairPeaks`, `Distance`, `Tangent`, `Potential`, `SurfaceSlope` | `World`: frames |
+| `SlowReport` | `SlowHost`: frames |
 | `Run` | `Simulation.run` |
 | `Replay`, `Trade` with `Level`, `Tuned` | `replay`, `trade`, `tune` |
 | `BatchRuns` | `Batch.run` |
@@ -31,6 +32,7 @@ from ._pong import (
     Replay,
     Row,
     Run,
+    SlowReport,
     SurfaceSlope,
     Tangent,
     Trade,
@@ -56,6 +58,7 @@ __all__ = [
     "Replay",
     "Row",
     "Run",
+    "SlowReport",
     "SurfaceSlope",
     "Tangent",
     "Trade",

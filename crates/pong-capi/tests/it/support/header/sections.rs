@@ -71,6 +71,13 @@ pub const SECTIONS: &[Section] = &[
         about: &[],
         items: &["report::pong_ledger", "report::pong_get_ledger", "accounts"],
     },
+    Section {
+        heading: "Slow hosts",
+        about: &[
+            "Optional: for hosts that call once in a long frame and hold the wrench. See docs/slow_hosts.md.",
+        ],
+        items: &["slow_settings", "slow_input", "slow_report", "slow_host"],
+    },
 ];
 
 impl Section {

@@ -1,0 +1,243 @@
+#include "slow.h"
+
+#include "joints.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- making and deleting */
+
+int refuse_integrator(const mjModel *m, message *why)
+{
+    const int integrator = m->opt.integrator;
+    if (integrator == mjINT_EULER || integrator == mjINT_IMPLICIT || integrator == mjINT_IMPLICITFAST)
+        return 1;
+    return fail(why, "key `substeps_max`: it needs a wrench that is held over the step, and poses that follow the new velocity; "
+                     "set the integrator to Euler, implicit or implicitfast, or leave the key out");
+}
+
+static pong_status make_slow(pong_slow_host **host, const contact_world *w)
+{
+    pong_slow_settings settings = pong_default_slow_settings();
+    settings.theta = 1.0;
+    settings.substeps_max = w->substeps_max;
+    return pong_create_slow_host(w->world, &settings, host);
+}
+
+int measure_slow(size_t *size, const contact_world *w, message *why)
+{
+    pong_slow_host *host;
+    pong_status status = make_slow(&host, w);
+    if (status == PONG_STATUS_OK)
+        status = pong_slow_state_size(host, size);
+    if (status != PONG_STATUS_OK)
+        fail_by_library(why, "key `substeps_max`");
+    pong_destroy_slow_host(host);
+    return status == PONG_STATUS_OK;
+}
+
+static __thread int making_scratch;
+
+int is_making_scratch(void) { return making_scratch; }
+
+int open_slow(slow_copies *copies, const contact_world *w, const mjModel *m, message *why)
+{
+    const size_t dofs = (size_t)m->nv;
+    if (w->substeps_max == 0)
+        return 1;
+    if (!refuse_integrator(m, why))
+        return 0;
+    if (make_slow(&copies->host, w) != PONG_STATUS_OK)
+        return fail_by_library(why, "key `substeps_max`");
+    making_scratch = 1;
+    copies->scratch = mj_makeData(m);
+    making_scratch = 0;
+    copies->inputs = calloc(w->group_count, sizeof *copies->inputs);
+    copies->inertia = malloc((dofs * dofs + 1) * sizeof *copies->inertia);
+    copies->columns = malloc((12 * dofs + 1) * sizeof *copies->columns);
+    if (copies->scratch == NULL || copies->inputs == NULL || copies->inertia == NULL || copies->columns == NULL)
+        return fail(why, "no memory for the copies of the key `substeps_max`");
+    return 1;
+}
+
+void close_slow(slow_copies *copies)
+{
+    pong_destroy_slow_host(copies->host);
+    if (copies->scratch != NULL)
+        mj_deleteData(copies->scratch);
+    free(copies->inputs);
+    free(copies->inertia);
+    free(copies->columns);
+    memset(copies, 0, sizeof *copies);
+}
+
+/* ---- one step without contact */
+
+/* Steps the scratch data, and gives them the mean acceleration of the step at the state of its beginning. */
+static void step_without_contact(mjData *scratch, const mjModel *m, const mjData *d)
+{
+    int i;
+    mj_copyState(m, d, scratch, mjSTATE_INTEGRATION);
+    mj_step(m, scratch);
+    for (i = 0; i < m->nv; i++)
+        scratch->qacc[i] = (scratch->qvel[i] - d->qvel[i]) / m->opt.timestep;
+    /* Positions and velocities of the beginning; kinematics, inertia and constraints still are. */
+    mju_copy(scratch->qpos, d->qpos, m->nq);
+    mju_copy(scratch->qvel, d->qvel, m->nv);
+    mj_rnePostConstraint(m, scratch);
+}
+
+/* Adds the inertia of a row of the constraint Jacobian with this weight. */
+static void add_row(mjtNum *inertia, const mjModel *m, const mjData *d, int row, mjtNum weight)
+{
+    const int dofs = m->nv, sparse = mj_isSparse(m);
+    const mjtNum *values = d->efc_J + (sparse ? d->efc_J_rowadr[row] : row * dofs);
+    const int *columns = sparse ? d->efc_J_colind + d->efc_J_rowadr[row] : NULL;
+    const int count = sparse ? d->efc_J_rownnz[row] : dofs;
+    int i, k;
+    for (i = 0; i < count; i++)
+        for (k = 0; k < count; k++)
+            inertia[(sparse ? columns[i] : i) * dofs + (sparse ? columns[k] : k)] += weight * values[i] * values[k];
+}
+
+/* Adds the damping that the integrator treats implicitly, times the step. */
+static void add_damping(mjtNum *inertia, const mjModel *m, const mjData *d)
+{
+    const mjtNum step = m->opt.timestep;
+    int i, k;
+    if (m->opt.integrator == mjINT_EULER) {
+        for (i = 0; i < m->nv && !(m->opt.disableflags & (mjDSBL_EULERDAMP | mjDSBL_DAMPER)); i++)
+            inertia[i * m->nv + i] += step * m->dof_damping[i];
+        return;
+    }
+    for (i = 0; i < m->nv; i++)
+        for (k = m->D_rowadr[i]; k < m->D_rowadr[i] + m->D_rownnz[i]; k++) {
+            /* Half of it on either side of the diagonal. */
+            inertia[i * m->nv + m->D_colind[k]] -= 0.5 * step * d->qDeriv[k];
+            inertia[m->D_colind[k] * m->nv + i] -= 0.5 * step * d->qDeriv[k];
+        }
+}
+
+/* Effective inertia of a step: an impulse changes the velocity by its inverse. The constraints that act count as springs
+ * between bodies, as MuJoCo solves them. */
+static void factor_inertia(slow_copies *copies, const mjModel *m)
+{
+    const mjData *d = copies->scratch;
+    int row;
+    mj_fullM(m, d, copies->inertia);
+    for (row = 0; row < d->nefc; row++)
+        if (d->efc_state[row] == mjCNSTRSTATE_QUADRATIC)
+            add_row(copies->inertia, m, d, row, d->efc_D[row]);
+    add_damping(copies->inertia, m, d);
+    mju_cholFactor(copies->inertia, m->nv, mjMINVAL);
+}
+
+/* ---- the movable groups */
+
+/* Zeroes the rows and columns of directions in which joints hold the body, up to rounding. */
+static void drop_rounding(mjtNum A[36])
+{
+    mjtNum most[2] = {0, 0};
+    int i, k;
+    for (i = 0; i < 6; i++)
+        most[i / 3] = mju_max(most[i / 3], A[7 * i]);
+    for (i = 0; i < 6; i++)
+        /* Lengths of 1 m: a point 1 um from an axis does not move. */
+        if (A[7 * i] < 1e-12 * mju_max(most[0], most[1]))
+            for (k = 0; k < 6; k++)
+                A[6 * i + k] = A[6 * k + i] = 0;
+}
+
+/* Mobility of a body in its frame: J M^-1 J^T with the effective inertia. Returns 0 if it does not move. */
+static int read_mobility(mjtNum A[36], const slow_copies *copies, const mjModel *m, int body)
+{
+    const mjData *d = copies->scratch;
+    const int dofs = m->nv;
+    mjtNum *jacobian = copies->columns, *solved = copies->columns + 6 * dofs, turn[36], common[36];
+    const mjtNum *R = d->xmat + 9 * body;
+    int i, k;
+    mj_jac(m, d, jacobian, jacobian + 3 * dofs, d->xpos + 3 * body, body);
+    for (i = 0; i < 6; i++)
+        mju_cholSolve(solved + i * dofs, copies->inertia, jacobian + i * dofs, dofs);
+    mju_mulMatMatT(common, jacobian, solved, 6, dofs, 6);
+    /* Components along the axes of the body: turn = diag(R^T, R^T). */
+    mju_zero(turn, 36);
+    for (i = 0; i < 3; i++)
+        for (k = 0; k < 3; k++)
+            turn[6 * i + k] = turn[6 * (i + 3) + k + 3] = R[3 * k + i];
+    {
+        mjtNum half[36], whole[36];
+        mju_mulMatMat(half, turn, common, 6, 6, 6);
+        mju_mulMatMatT(whole, half, turn, 6, 6, 6);
+        for (i = 0; i < 6; i++)
+            for (k = 0; k < 6; k++)
+                A[6 * i + k] = 0.5 * (whole[6 * i + k] + whole[6 * k + i]);
+    }
+    drop_rounding(A);
+    for (i = 0; i < 6; i++)
+        if (A[7 * i] > 0)
+            return 1;
+    return 0;
+}
+
+/* Returns true for a rigid body of its own on a free joint that no constraint touches. */
+static int is_free_body(const mjModel *m, const mjData *d, int body, const pong_mass *mass)
+{
+    const int top = m->body_weldid[body];
+    return top > 0 && m->body_jntnum[top] == 1 && m->jnt_type[m->body_jntadr[top]] == mjJNT_FREE && d->nefc == 0 &&
+           fabs(m->body_subtreemass[top] - mass->mass) <= 1e-12 * mass->mass;
+}
+
+static void read_acceleration(pong_slow_input *input, const mjModel *m, const mjData *d, int body)
+{
+    mjtNum both[6];
+    mj_objectAcceleration(m, d, mjOBJ_XBODY, body, both, 0);
+    memcpy(input->angular_acceleration, both, sizeof input->angular_acceleration);
+    memcpy(input->linear_acceleration, both + 3, sizeof input->linear_acceleration);
+    /* MuJoCo lets the world rise instead of gravity act. */
+    if (!(m->opt.disableflags & mjDSBL_GRAVITY))
+        mju_addTo3(input->linear_acceleration, m->opt.gravity);
+}
+
+/* Moves the acceleration from the origin to the mass centre. */
+static void move_acceleration(pong_slow_input *input, const mjData *d, int body)
+{
+    const double *turning = input->state.angular_velocity;
+    mjtNum arm[3], speed[3], part[3];
+    mju_mulMatVec3(arm, d->xmat + 9 * body, input->mass.mass_center);
+    mju_cross(part, input->angular_acceleration, arm);
+    mju_addTo3(input->linear_acceleration, part);
+    mju_cross(speed, turning, arm);
+    mju_cross(part, turning, speed);
+    mju_addTo3(input->linear_acceleration, part);
+}
+
+static void read_input(pong_slow_input *input, const slow_copies *copies, const mjModel *m, int body)
+{
+    const mjData *d = copies->scratch;
+    input->mass = mass_of(m, body);
+    read_acceleration(input, m, d, body);
+    if (isinf(input->mass.mass)) {
+        input->dynamics = PONG_DYNAMICS_PRESCRIBED;
+    } else if (is_free_body(m, d, body, &input->mass)) {
+        input->dynamics = PONG_DYNAMICS_FREE;
+        move_acceleration(input, d, body);
+    } else {
+        input->dynamics = read_mobility(input->mobility, copies, m, body) ? PONG_DYNAMICS_JOINTED : PONG_DYNAMICS_PRESCRIBED;
+    }
+}
+
+pong_status evaluate_slow(slow_copies *copies, const contact_world *w, const mjModel *m, const mjData *d,
+                          const pong_state *states)
+{
+    size_t i;
+    step_without_contact(copies->scratch, m, d);
+    factor_inertia(copies, m);
+    for (i = 0; i < w->group_count; i++) {
+        copies->inputs[i].interface = w->interfaces[i];
+        copies->inputs[i].state = states[i];
+        read_input(&copies->inputs[i], copies, m, w->bodies[i]);
+    }
+    return pong_evaluate_slow(copies->host, m->opt.timestep, copies->inputs, w->group_count);
+}
