@@ -22,9 +22,13 @@ pub(crate) fn main(arguments: &Arguments) -> Outcome {
     let first = source::groups(state.world()?, &arguments.of, "--of")?;
     let second = source::groups(state.world()?, &arguments.on, "--on")?;
     let interface = LinearInterface::between(state.world()?, &first.ids, &second.ids)?;
-    let about = About { source: state.description(), first: first.names, second: second.names };
+    let about = About {
+        source: state.description(),
+        sets: [&arguments.of, &arguments.on].map(|names| names.join(", ")),
+        reference: first.names[0].clone(),
+    };
     print(&tables::text(&about, &interface));
-    for note in notes(&state, &interface, [&about.first, &about.second]) {
+    for note in notes(&state, &interface, [&first.names, &second.names]) {
         tell(format!("note: {note}"));
     }
     if let Some(path) = &arguments.out {

@@ -20,7 +20,7 @@ pub(super) fn text(about: &About, interface: &LinearInterface) -> String {
         &mut text,
         &format!(
             "Grid 1 is the first set, grid 2 the second. Both are at the origin of `{}`, with its axes: there at {:e} {:e} {:e} m, quaternion w x y z {:e} {:e} {:e} {:e} in the common frame. Units N, m, rad, s.",
-            about.first[0], position.x, position.y, position.z, q.w, q.i, q.j, q.k
+            about.reference, position.x, position.y, position.z, q.w, q.i, q.j, q.k
         ),
     );
     comment(&mut text, "The interface is linear until, beyond the preload, a load on grid 1:");

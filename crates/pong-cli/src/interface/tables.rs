@@ -17,10 +17,10 @@ pub(super) const SMALL: f64 = 0.01;
 pub(super) struct About {
     /// Scene or log, and the time.
     pub source: String,
-    /// Names of the groups of the first set.
-    pub first: Vec<String>,
-    /// Names of the groups of the second set.
-    pub second: Vec<String>,
+    /// Names of both sets, as they were given.
+    pub sets: [String; 2],
+    /// Name of the group whose origin and axes are those of the interface.
+    pub reference: String,
 }
 
 pub(super) fn text(about: &About, interface: &LinearInterface) -> String {
@@ -30,11 +30,11 @@ pub(super) fn text(about: &About, interface: &LinearInterface) -> String {
         "{} ({} slipping); reference point and axes: those of `{}`",
         count(interface.contacts, "contact", "contacts"),
         interface.slipping,
-        about.first[0],
+        about.reference,
     );
     let preload = [interface.preload.force, interface.preload.moment];
     let [force, moment] = preload.map(|vector| numbers(vector.as_slice()));
-    let _ = writeln!(text, "preload on `{}`: force {force} N, moment {moment} N·m\n", about.first[0]);
+    let _ = writeln!(text, "preload on `{}`: force {force} N, moment {moment} N·m\n", about.reference);
     let heading = ["", "stiffness", "damping"];
     let rows = (0..6).map(|i| {
         let units = if i < 3 { ["N/m", "N·s/m"] } else { ["N·m/rad", "N·m·s/rad"] };
@@ -45,20 +45,19 @@ pub(super) fn text(about: &About, interface: &LinearInterface) -> String {
     text + "\n" + &limits(interface)
 }
 
-/// `` `a`, `b` on `c` ``.
+/// `` `a, b` on `c` ``.
 pub(super) fn sides(about: &About) -> String {
-    let named =
-        |names: &[String]| names.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ");
-    format!("{} on {}", named(&about.first), named(&about.second))
+    let [first, second] = &about.sets;
+    format!("`{first}` on `{second}`")
 }
 
 /// A row for each direction of each component of a load.
 fn limits(interface: &LinearInterface) -> String {
     let heading = ["load", "opens at", "first contact that opens", "slides at", "first contact that slides"];
     let mut rows = Vec::new();
-    for component in 0..6 {
+    for (component, load) in LOADS.iter().enumerate() {
         for (sign, name) in [(1.0, "+"), (-1.0, "-")] {
-            let mut row = vec![format!("{name}{}", LOADS[component])];
+            let mut row = vec![format!("{name}{load}")];
             for ending in [Ending::Opens, Ending::Slides] {
                 match limit(interface, component, sign, ending) {
                     Some(limit) => row.extend([of_limit(limit), limit.contact.clone()]),
@@ -114,7 +113,7 @@ pub(super) fn csv(about: &About, interface: &LinearInterface) -> String {
     let _ = writeln!(
         text,
         "# reference point and axes of `{}`: position {position} m, quaternion w x y z {turn} in the common frame",
-        about.first[0]
+        about.reference
     );
     text += "# preload: wrench on the first set (N, N.m); opens, slides: load beyond it (N, N.m) at which the named contact does so first\n";
     text += "quantity,name,1,2,3,4,5,6\n";
