@@ -314,6 +314,14 @@ public:
         return all;
     }
 
+    /// As tangents() where the closed form is known, and by differences elsewhere: pong_get_complete_tangents(). Allocates.
+    std::vector<Tangent> complete_tangents() {
+        std::vector<Tangent> all(contact_count());
+        all.resize(result<std::size_t>(
+            [&](std::size_t* count) { return pong_get_complete_tangents(get(), all.data(), all.size(), count); }));
+        return all;
+    }
+
     // Results: distance.
 
     /// Distance of two movable groups, with their nearest primitives: pong_get_distance().

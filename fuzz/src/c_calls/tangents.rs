@@ -3,8 +3,8 @@
 use super::session::{Session, Sure};
 use pong::contacts::pong_contact;
 use pong::tangents::{
-    pong_contact_tangent, pong_get_contact_tangents, pong_get_tangents, pong_get_tangents_by_differences,
-    pong_tangent,
+    pong_contact_tangent, pong_get_complete_tangents, pong_get_contact_tangents, pong_get_tangents,
+    pong_get_tangents_by_differences, pong_tangent,
 };
 use pong::world::pong_world;
 
@@ -39,6 +39,9 @@ impl Session<'_> {
         if capacity <= DIFFERENCES_MAX {
             self.call("tangents by differences", sure, || unsafe {
                 pong_get_tangents_by_differences(world, tangents.as_mut_ptr(), capacity, &mut found)
+            });
+            self.call("complete tangents", sure, || unsafe {
+                pong_get_complete_tangents(world, tangents.as_mut_ptr(), capacity, &mut found)
             });
         }
     }

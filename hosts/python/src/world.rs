@@ -512,10 +512,28 @@ impl World {
     /// PhaseError
     ///     No frame is evaluated, or it is committed.
     /// BadValueError
-    ///     A contact has derivatives that are not known in closed form: use `differences=True`.
+    ///     A contact has derivatives that are not known in closed form: use `complete_tangents`.
     #[pyo3(signature = (differences = false))]
     fn tangents(&self, py: Python<'_>, differences: bool) -> PyResult<Vec<Tangent>> {
-        tangents::of_frame(py, &mut self.lock()?.world, differences)
+        let world = &mut self.lock()?.world;
+        tangents::of_frame(py, world, |world| {
+            if differences { world.tangents_by_differences() } else { world.tangents() }
+        })
+    }
+
+    /// Returns the same as `tangents`, for every kind of contact: in closed form for two groups whose contacts all have
+    /// it, by central differences for others.
+    ///
+    /// Returns
+    /// -------
+    /// list of Tangent
+    ///
+    /// Raises
+    /// ------
+    /// PhaseError
+    ///     No frame is evaluated, or it is committed.
+    fn complete_tangents(&self, py: Python<'_>) -> PyResult<Vec<Tangent>> {
+        tangents::of_frame(py, &mut self.lock()?.world, pong_engine::World::complete_tangents)
     }
 
     /// Returns the report of the last frame.
