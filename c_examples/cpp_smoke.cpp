@@ -138,6 +138,7 @@ void list_and_restore(pong::World& world) {
     world.evaluate();
     const auto tangents = world.tangents(), differences = world.tangents_by_differences();
     const double up_by_up = tangents[0].stiffness[0][0][14];
+    require(world.complete_tangents()[0].stiffness[0][0][14] == up_by_up, "complete tangents are those in closed form");
     require(tangents.size() == 1 && differences.size() == 1 && std::fabs(up_by_up / stiffness[0].first - 1) < 1e-9 &&
                 std::fabs(differences[0].stiffness[0][0][14] / up_by_up - 1) < 1e-4 &&
                 world.contact_tangents()[0].normal_stiffness == stiffness[0].first,

@@ -292,6 +292,8 @@ static void bad_tangents(scene *s)
     TEST(count == 1);
     REFUSED(pong_get_tangents_by_differences(s->world, NULL, 1, &count), NULL_ARGUMENT, "`tangents`");
     REFUSED(pong_get_tangents_by_differences(s->world, &tangent, 1, NULL), NULL_ARGUMENT, "`count`");
+    REFUSED(pong_get_complete_tangents(s->world, NULL, 1, &count), NULL_ARGUMENT, "`tangents`");
+    REFUSED(pong_get_complete_tangents(s->world, &tangent, 1, NULL), NULL_ARGUMENT, "`count`");
 }
 
 /* Inputs of a frame in which the ball falls at the arm's side and the ground stands. */

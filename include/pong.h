@@ -800,7 +800,7 @@ typedef struct pong_contact_tangent {
 ///
 /// PONG_STATUS_WRONG_PHASE: call it between pong_evaluate() and the commit. PONG_STATUS_BAD_VALUE: a contact has
 /// derivatives that are not known in closed form, such as that of two solids or of a law of the host's; the message
-/// names it, and pong_get_tangents_by_differences() has them. PONG_STATUS_BUFFER_TOO_SMALL if not all fit;
+/// names it, and pong_get_complete_tangents() has them. PONG_STATUS_BUFFER_TOO_SMALL if not all fit;
 /// `group_pairs` of the seal report is always enough. With capacity 0 `tangents` may be NULL.
 pong_status pong_get_tangents(const struct pong_world *world,
                               struct pong_tangent *tangents,
@@ -819,6 +819,15 @@ pong_status pong_get_tangents_by_differences(struct pong_world *world,
                                              struct pong_tangent *tangents,
                                              size_t capacity,
                                              size_t *count);
+
+/// As pong_get_tangents() for the pairs of groups whose contacts all have derivatives in closed form, and as
+/// pong_get_tangents_by_differences() for the others, in the same order. Allocates.
+///
+/// Errors as for pong_get_tangents_by_differences().
+pong_status pong_get_complete_tangents(struct pong_world *world,
+                                       struct pong_tangent *tangents,
+                                       size_t capacity,
+                                       size_t *count);
 
 /// Copies stiffness and damping of each contact of the last frame, in the order of pong_get_contacts(): the first
 /// `capacity`; `count` gets their number. All four are not a number (NaN) for a law of the host's, for contacts of

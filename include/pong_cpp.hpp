@@ -320,6 +320,13 @@ public:
         return all;
     }
 
+    /// As tangents() where the closed form is known, and by differences elsewhere: pong_get_complete_tangents(). Allocates.
+    std::vector<Tangent> complete_tangents() {
+        std::vector<Tangent> all(contact_count());
+        all.resize(result<std::size_t>(
+            [&](std::size_t* count) { return pong_get_complete_tangents(get(), all.data(), all.size(), count); }));
+        return all;
+    }
     /// Energies of a step of length `step` as functions of its end: pong_get_incremental_potentials(). Between evaluate() and
     /// commit(). Allocates.
     std::vector<Potential> incremental_potentials(double step) const {

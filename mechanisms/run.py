@@ -8,15 +8,18 @@
     python3 mechanisms/run.py NAME --campaign DIR --runs 1000      dispersed runs; rows go to DIR, what is there stays
     python3 mechanisms/run.py NAME --loads DIR --case FILE         loads of the cases of a file (kit/loads.py)
     python3 mechanisms/run.py NAME --loads-check                   loads of a changed mechanism beside closed forms
+    python3 mechanisms/run.py NAME --interface DIR                 linear interfaces of the mated joint, for structural models
     python3 mechanisms/run.py NAME --set CHASER_MASS=13e3 …        any of these with another number (kit/parameters.py)
 
-Needs mujoco, numpy, the wheel pong (docs/python.md) and the plugin (docs/mujoco.md): its file in the variable PLUGIN, or
+`--interface` needs the program `pong` in the folder BUILD_DIR or in PATH. Needs mujoco, numpy, the wheel pong (docs/python.md) and the plugin (docs/mujoco.md): its file in the variable PLUGIN, or
 the wheel pong_mujoco; for campaigns the wheel pong with [campaign] (docs/campaigns.md).
 `bash ci/mechanisms NAME` installs and builds these. Exit code 1 if anything is off.
 """
 
 import argparse
+import os
 import pathlib
+import subprocess
 import sys
 
 HERE = pathlib.Path(__file__).resolve().parent
@@ -41,6 +44,7 @@ def main():
     parser.add_argument("--set", action="append", default=[], metavar="NAME=VALUE", help="a constant of dimensions.py")
     parser.add_argument("--loads", type=pathlib.Path, metavar="DIR", help="loads of the cases: checks nothing else")
     parser.add_argument("--loads-check", action="store_true", help="loads beside closed forms: checks nothing else")
+    parser.add_argument("--interface", type=pathlib.Path, metavar="DIR", help="linear interfaces: checks nothing else")
     given = parser.parse_args()
     sys.path[:0] = [str(HERE / given.name), str(HERE)]
     if given.loads_check:
@@ -50,6 +54,8 @@ def main():
         sys.exit(run_loads(given, cases, parser))
     if given.campaign:
         sys.exit(run_campaign(given, parser))
+    if given.interface:
+        sys.exit(write_interfaces(given, parser))
     import outcome
 
     if given.log:
@@ -130,6 +136,32 @@ def write_log(outcome, given):
     (recorder,) = recorders
     print(f"{folder}: {recorder.close()} rows; wrenches differ from the plugin's by {recorder.off:.1e} at most")
     return 0 if recorder.off <= 1e-9 else "the log does not show what the plugin computed"
+
+
+def write_interfaces(given, parser):
+    """Runs the mechanism until it holds, writes that state as a log, and its interfaces as cards and as CSV."""
+    if not (HERE / given.name / "interface.py").exists():
+        parser.error(f"{given.name} has no interface: it lacks the file interface.py")
+    import interface
+    from kit.record import Follower
+
+    followers = []
+
+    def prepare(machine):
+        followers.append(Follower(machine))
+        machine.watchers.append(followers[0])
+
+    interface.held(prepare)
+    state = given.interface / "state"
+    followers[0].write(state)
+    pong = pathlib.Path(os.environ.get("BUILD_DIR", "")) / "pong"
+    for name, (of, on) in interface.SETS.items():
+        for end in ("bdf", "csv"):
+            out = given.interface / f"{name}.{end}"
+            command = [pong if pong.exists() else "pong", "interface", state, "--of", of, "--on", on, "--out", out]
+            shown = None if end == "bdf" else subprocess.DEVNULL
+            subprocess.run(command, check=True, stdout=shown, stderr=shown)
+    return 0
 
 
 if __name__ == "__main__":

@@ -42,6 +42,27 @@ class World:
         self.world.set_states(self.states)
 
 
+class Follower:
+    """Watcher of every step of a `Machine`: its contact world commits what the plugin does, and can write its last state as a log
+    of one row, with the contact state."""
+
+    def __init__(self, machine):
+        self.beside = World(machine)
+        self.world = self.beside.at()
+        self.machine = machine
+
+    def __call__(self, machine):
+        self.beside.move()
+        self.world.step()
+
+    def write(self, folder):
+        pathlib.Path(folder).parent.mkdir(parents=True, exist_ok=True)
+        machine = self.machine
+        self.world.start_log(folder, name=machine.name, step=machine.step, commits_per_frame=1, overwrite=True)
+        self.beside.at().log_frame(machine.time)
+        self.world.stop_log()
+
+
 class Recorder:
     """Watcher of every step of a `Machine`; each `every`-th is a row of the log.
 

@@ -21,6 +21,7 @@
 //! | `setting.rs`, `limits.rs` | the world and the known masses; the limits of a step |
 //! | `pressed.rs` | single contacts of a frame, each at its depth and normal force |
 //! | `stored.rs` | energy in the springs of a frame's contacts |
+//! | `interface/` | stiffness and damping between two sets of groups at a preload, and the loads up to which they hold |
 //! | `modes/` | frequencies, damping ratios and shapes of masses on a tangent |
 //! | `check.rs`, `warn.rs` | every pair of movable groups against the host's step; the warnings and notes |
 
@@ -34,6 +35,7 @@ mod contact;
 mod coupling;
 mod delay;
 mod footprint;
+mod interface;
 mod limits;
 mod mass;
 mod mobility;
@@ -59,6 +61,7 @@ pub use check::{StepReport, step_report, step_report_with};
 pub use contact::{ContactAdvice, ContactWish, advise_contact, critical_damping};
 pub use coupling::longest_stable_step;
 pub use delay::critical_delay;
+pub use interface::{Ending, LinearInterface, LoadLimit, contact_name};
 pub use limits::{BounceLimit, GroupLimits, PairLimits, SpringLimit, judge_contact};
 pub use mass::{GroupMass, Joints, SpringRates, StepPlan};
 pub use modes::{BodyShape, Carrier, Growth, LinearBody, LinearSystem, Mode, ModeKind, Modes};

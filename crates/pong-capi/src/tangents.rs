@@ -7,7 +7,7 @@ use crate::ids::pong_interface_id;
 use crate::interfaces::too_small;
 use crate::pointers::{Out, OutArray, apart};
 use crate::status::pong_status;
-use pong_engine::{ContactTangent, PairTangent, TangentMatrix, World};
+use pong_engine::{ContactTangent, EngineError, PairTangent, TangentMatrix, World};
 
 /// Derivatives of the wrenches that two movable groups put on each other.
 ///
@@ -49,7 +49,7 @@ pub struct pong_contact_tangent {
 ///
 /// PONG_STATUS_WRONG_PHASE: call it between pong_evaluate() and the commit. PONG_STATUS_BAD_VALUE: a contact has
 /// derivatives that are not known in closed form, such as that of two solids or of a law of the host's; the message
-/// names it, and pong_get_tangents_by_differences() has them. PONG_STATUS_BUFFER_TOO_SMALL if not all fit;
+/// names it, and pong_get_complete_tangents() has them. PONG_STATUS_BUFFER_TOO_SMALL if not all fit;
 /// `group_pairs` of the seal report is always enough. With capacity 0 `tangents` may be NULL.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_get_tangents(
@@ -83,7 +83,24 @@ pub unsafe extern "C" fn pong_get_tangents_by_differences(
 ) -> pong_status {
     with_world(world, |inner| {
         let out = Destination::new((tangents, "tangents"), capacity, count)?;
-        out.fill(&inner.tangents_by_differences()?)
+        out.fill(&inner.tangents_with(World::tangents_by_differences)?)
+    })
+}
+
+/// As pong_get_tangents() for the pairs of groups whose contacts all have derivatives in closed form, and as
+/// pong_get_tangents_by_differences() for the others, in the same order. Allocates.
+///
+/// Errors as for pong_get_tangents_by_differences().
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pong_get_complete_tangents(
+    world: *mut pong_world,
+    tangents: *mut pong_tangent,
+    capacity: usize,
+    count: *mut usize,
+) -> pong_status {
+    with_world(world, |inner| {
+        let out = Destination::new((tangents, "tangents"), capacity, count)?;
+        out.fill(&inner.tangents_with(World::complete_tangents)?)
     })
 }
 
@@ -144,11 +161,14 @@ impl<T> Destination<T> {
 }
 
 impl Inner {
-    /// Tangents by differences. If a law fails at a state in between, the frame does not count any more: a law that
+    /// Tangents that may take differences. If a law fails at a state in between, the frame does not count any more: a law that
     /// is not pure may have failed in the last evaluation, which computes the frame again.
-    fn tangents_by_differences(&mut self) -> Outcome<Vec<PairTangent>> {
+    fn tangents_with(
+        &mut self,
+        tangents: impl FnOnce(&mut World) -> Result<Vec<PairTangent>, EngineError>,
+    ) -> Outcome<Vec<PairTangent>> {
         self.law_faults.check()?;
-        let found = self.phase.frames_mut("get tangents")?.tangents_by_differences();
+        let found = tangents(self.phase.frames_mut("get tangents")?);
         self.law_faults.collect();
         self.law_faults.check()?;
         Ok(found?)

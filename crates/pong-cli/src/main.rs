@@ -15,6 +15,7 @@ mod fit;
 mod fmu;
 mod folders;
 mod import;
+mod interface;
 mod join;
 mod log;
 mod man_pages;
@@ -50,6 +51,7 @@ enum Command {
     Fit(fit::Arguments),
     Fmu(fmu::Arguments),
     Import(import::Arguments),
+    Interface(interface::Arguments),
     Join(join::Arguments),
     Run(run::Arguments),
     Log(log::Arguments),
@@ -76,6 +78,7 @@ fn main() -> ExitCode {
         Command::Fit(arguments) => fit::main(&arguments),
         Command::Fmu(arguments) => fmu::main(&arguments),
         Command::Import(arguments) => import::main(&arguments),
+        Command::Interface(arguments) => interface::main(&arguments),
         Command::Join(arguments) => join::main(&arguments),
         Command::Run(arguments) => run::main(&arguments),
         Command::Log(arguments) => log::main(&arguments),

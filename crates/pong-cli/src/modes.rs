@@ -3,7 +3,7 @@
 mod animation;
 mod arguments;
 mod report;
-mod state;
+pub(crate) mod state;
 
 pub(crate) use arguments::Arguments;
 
@@ -16,7 +16,7 @@ pub(crate) fn main(arguments: &Arguments) -> Outcome {
         Scene::load(&arguments.scene).map(|scene| scene.with_extensions(arguments.allowed.extensions()))?;
     let mut built = scene.build()?;
     warnings(&built);
-    let state = state::reach(arguments, &mut built)?;
+    let state = state::reach(&arguments.state, &mut built)?;
     let linear = built.simulation.linearised()?;
     let modes = linear.system.modes(linear.tolerance())?;
     let text = match (arguments.csv, arguments.json) {

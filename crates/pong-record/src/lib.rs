@@ -30,7 +30,7 @@ pub use event::{Event, LoggedEvent, SurfaceValues};
 pub use format::VERSION;
 pub use read::{Frame, Log};
 pub use replay::{
-    Difference, Obstacle, ReplayOptions, ReplayReport, RerunFrame, replay, rerun, world_of_log,
+    Difference, Obstacle, ReplayOptions, ReplayReport, RerunFrame, replay, rerun, world_at, world_of_log,
 };
 pub use run::{Run, RunAccounts, RunBody, RunModel, RunObject, RunPrimitive, RunTable};
 pub use table::{ContactRow, EnergyRow, FrameRow, StateRow, WrenchRow};

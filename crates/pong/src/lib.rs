@@ -216,6 +216,45 @@ pub use pong_engine::Contact;
 /// ```
 pub use pong_engine::ContactSide;
 
+/// Derivatives of the wrenches of two movable groups that touch, with respect to their poses and twists.
+///
+/// ```
+/// # include!(concat!(env!("CARGO_MANIFEST_DIR"), "/doc/ball_on_ground.rs"));
+/// # fn main() -> Result<(), pong::Error> {
+/// # let (mut world, [ball, ground], pair) = ball_on_ground(pong::Config::default())?;
+/// world.evaluate()?;
+/// let tangent = &world.tangents()?[0];
+/// assert_eq!(tangent.groups, [ball, ground]);
+/// assert!((tangent.stiffness[0][0][(2, 2)] - 2e4).abs() < 1e-6);
+/// // Solids and laws of the host have no closed form: there this takes differences.
+/// assert!(!world.complete_tangents()?[0].by_differences);
+/// # Ok(())
+/// # }
+/// ```
+pub use pong_engine::PairTangent;
+
+/// A block of a [`PairTangent`]: rows force and moment, columns translation and rotation.
+///
+/// ```
+/// let spring = pong::TangentMatrix::from_diagonal_element(2e4);
+/// assert_eq!(spring[(2, 2)], 2e4);
+/// ```
+pub use pong_engine::TangentMatrix;
+
+/// Stiffness and damping that act in one contact.
+///
+/// ```
+/// # include!(concat!(env!("CARGO_MANIFEST_DIR"), "/doc/ball_on_ground.rs"));
+/// # fn main() -> Result<(), pong::Error> {
+/// # let (mut world, [ball, ground], pair) = ball_on_ground(pong::Config::default())?;
+/// world.step()?;
+/// let springs = world.contact_tangents().next().flatten().expect("one contact of built-in laws");
+/// assert_eq!((springs.normal.stiffness, springs.normal.damping), (2e4, 30.0));
+/// # Ok(())
+/// # }
+/// ```
+pub use pong_engine::ContactTangent;
+
 /// Face, edge or vertex of B that pushes, with its index.
 ///
 /// ```

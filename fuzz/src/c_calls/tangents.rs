@@ -7,8 +7,8 @@ use pong::slopes::{
     pong_get_incremental_potentials, pong_get_surface_slopes, pong_potential, pong_surface_slope,
 };
 use pong::tangents::{
-    pong_contact_tangent, pong_get_contact_tangents, pong_get_tangents, pong_get_tangents_by_differences,
-    pong_tangent,
+    pong_contact_tangent, pong_get_complete_tangents, pong_get_contact_tangents, pong_get_tangents,
+    pong_get_tangents_by_differences, pong_tangent,
 };
 use pong::world::pong_world;
 
@@ -48,6 +48,9 @@ impl Session<'_> {
             self.surface_slopes(world, sure, capacity);
             self.call("tangents by differences", sure, || unsafe {
                 pong_get_tangents_by_differences(world, tangents.as_mut_ptr(), capacity, &mut found)
+            });
+            self.call("complete tangents", sure, || unsafe {
+                pong_get_complete_tangents(world, tangents.as_mut_ptr(), capacity, &mut found)
             });
         }
     }

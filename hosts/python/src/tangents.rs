@@ -3,7 +3,7 @@
 use crate::arrays::{self, Matrix};
 use crate::errors::of_engine;
 use numpy::{PyArray1, PyArray4, PyArrayMethods};
-use pong_engine::{ContactTangent, ModelId, PairPotential, PairTangent, TangentMatrix, World};
+use pong_engine::{ContactTangent, EngineError, ModelId, PairPotential, PairTangent, TangentMatrix, World};
 use pong_geometry::Wrench;
 use pyo3::prelude::*;
 
@@ -45,6 +45,12 @@ impl Tangent {
         blocks(py, &self.0.damping)
     }
 
+    /// bool : True if central differences gave `stiffness` and `damping`.
+    #[getter]
+    fn by_differences(&self) -> bool {
+        self.0.by_differences
+    }
+
     fn __repr__(&self) -> String {
         format!("<pong.Tangent of {} and {}>", self.interface_a(), self.interface_b())
     }
@@ -58,9 +64,13 @@ fn blocks<'py>(py: Python<'py>, blocks: &[[TangentMatrix; 2]; 2]) -> PyResult<Bl
     PyArray1::from_vec(py, (0..144).map(number).collect()).reshape([2, 2, 6, 6])
 }
 
-/// Tangents of the last frame of a world, in closed form or by differences.
-pub(crate) fn of_frame(py: Python<'_>, world: &mut World, differences: bool) -> PyResult<Vec<Tangent>> {
-    let found = py.detach(|| if differences { world.tangents_by_differences() } else { world.tangents() });
+/// Tangents of the last frame of a world, by one of its functions.
+pub(crate) fn of_frame(
+    py: Python<'_>,
+    world: &mut World,
+    tangents: impl FnOnce(&mut World) -> Result<Vec<PairTangent>, EngineError> + Send,
+) -> PyResult<Vec<Tangent>> {
+    let found = py.detach(|| tangents(world));
     Ok(found.map_err(of_engine)?.into_iter().map(Tangent).collect())
 }
 

@@ -9,7 +9,6 @@ use crate::model::{surface_from, surface_values};
 use crate::pair_monitor::{ContactChange, PairPeaks, no_monitor};
 use crate::sealed::{Inner, World};
 use crate::setup::WorldBuilder;
-use crate::tangents::{self, Tangent};
 use crate::{advice, contacts, recording};
 use numpy::PyArray1;
 use pong_advise::StepPlan;
@@ -476,40 +475,6 @@ impl World {
     ///     Stiffness (N/m) and damping (N·s/m) in the order of `contacts`; NaN for a normal law of the host.
     fn contact_stiffness<'py>(&self, py: Python<'py>) -> PyResult<Matrix<'py>> {
         contacts::stiffness(py, &self.lock()?.world)
-    }
-
-    /// Returns stiffness and damping of each contact, along its normal and of its bristle.
-    ///
-    /// Returns
-    /// -------
-    /// ndarray, shape (k, 4)
-    ///     Stiffness (N/m) and damping (N·s/m) along the normal, then those of the bristle while it sticks, else 0; in the
-    ///     order of `contacts`. NaN for a law of the host, solids, and forces against rolling and spinning.
-    fn contact_tangents<'py>(&self, py: Python<'py>) -> PyResult<Matrix<'py>> {
-        tangents::of_contacts(py, &self.lock()?.world)
-    }
-
-    /// Returns the derivatives of the wrenches of the last frame, between `evaluate` and the commit, for every two groups
-    /// that touch (docs/theory.md, 7). The frame stays as it is.
-    ///
-    /// Parameters
-    /// ----------
-    /// differences : bool, default False
-    ///     Central differences instead of the closed form: for all kinds of contact, and slower.
-    ///
-    /// Returns
-    /// -------
-    /// list of Tangent
-    ///
-    /// Raises
-    /// ------
-    /// PhaseError
-    ///     No frame is evaluated, or it is committed.
-    /// BadValueError
-    ///     A contact has derivatives that are not known in closed form: use `differences=True`.
-    #[pyo3(signature = (differences = false))]
-    fn tangents(&self, py: Python<'_>, differences: bool) -> PyResult<Vec<Tangent>> {
-        tangents::of_frame(py, &mut self.lock()?.world, differences)
     }
 
     /// Returns the report of the last frame.

@@ -1,12 +1,65 @@
-//! Calls of a sealed world: incremental potentials, derivatives by the numbers of a surface.
+//! Calls of a sealed world: derivatives of wrenches and of the forces of contacts, incremental potentials.
 
+use crate::arrays::Matrix;
 use crate::ids::AddedModel;
 use crate::sealed::World;
-use crate::tangents::{self, Potential, SurfaceSlope};
+use crate::tangents::{self, Potential, SurfaceSlope, Tangent};
 use pyo3::prelude::*;
 
 #[pymethods]
 impl World {
+    /// Returns stiffness and damping of each contact, along its normal and of its bristle.
+    ///
+    /// Returns
+    /// -------
+    /// ndarray, shape (k, 4)
+    ///     Stiffness (N/m) and damping (N·s/m) along the normal, then those of the bristle while it sticks, else 0; in the
+    ///     order of `contacts`. NaN for a law of the host, solids, and forces against rolling and spinning.
+    fn contact_tangents<'py>(&self, py: Python<'py>) -> PyResult<Matrix<'py>> {
+        tangents::of_contacts(py, &self.lock()?.world)
+    }
+
+    /// Returns the derivatives of the wrenches of the last frame, between `evaluate` and the commit, for every two groups
+    /// that touch (docs/theory.md, 7). The frame stays as it is.
+    ///
+    /// Parameters
+    /// ----------
+    /// differences : bool, default False
+    ///     Central differences instead of the closed form: for all kinds of contact, and slower.
+    ///
+    /// Returns
+    /// -------
+    /// list of Tangent
+    ///
+    /// Raises
+    /// ------
+    /// PhaseError
+    ///     No frame is evaluated, or it is committed.
+    /// BadValueError
+    ///     A contact has derivatives that are not known in closed form: use `complete_tangents`.
+    #[pyo3(signature = (differences = false))]
+    fn tangents(&self, py: Python<'_>, differences: bool) -> PyResult<Vec<Tangent>> {
+        let world = &mut self.lock()?.world;
+        tangents::of_frame(py, world, |world| {
+            if differences { world.tangents_by_differences() } else { world.tangents() }
+        })
+    }
+
+    /// Returns the same as `tangents`, for every kind of contact: in closed form for two groups whose contacts all have
+    /// it, by central differences for others.
+    ///
+    /// Returns
+    /// -------
+    /// list of Tangent
+    ///
+    /// Raises
+    /// ------
+    /// PhaseError
+    ///     No frame is evaluated, or it is committed.
+    fn complete_tangents(&self, py: Python<'_>) -> PyResult<Vec<Tangent>> {
+        tangents::of_frame(py, &mut self.lock()?.world, pong_engine::World::complete_tangents)
+    }
+
     /// Returns the incremental potential of a step for every two groups that touch, between `evaluate` and the commit: the
     /// energy that their contacts add, as a function of the poses that are set, those at the end of the step. For hosts that
     /// find this end as the minimum of an energy. The step starts at the last commit (docs/theory.md, 7).

@@ -423,6 +423,8 @@ def test_tangents():
     before = made.wrenches()
     (tangent,), (differences,) = made.tangents(), made.tangents(differences=True)
     assert (tangent.interface_a, tangent.interface_b) == (0, 1)
+    assert differences.by_differences and not tangent.by_differences
+    assert made.complete_tangents() == [tangent]
     assert tangent.stiffness.shape == tangent.damping.shape == (2, 2, 6, 6)
     signs = np.array([[1.0, -1.0], [-1.0, 1.0]])
     np.testing.assert_allclose(tangent.stiffness[:, :, 2, 2], STIFFNESS * signs, rtol=1e-9)

@@ -1,4 +1,4 @@
-//! Shape of a mode as a response log: the bodies swing about the state, with an amplitude for the eye.
+//! Shape of a mode as a response log: the bodies swing about the state, with an amplitude for the eye and without contact.
 
 use super::arguments::Arguments;
 use crate::terminal::{Failure, print};
@@ -30,6 +30,11 @@ pub(super) fn write(
     let Some(folder) = &arguments.log else { return Ok(()) };
     // A log begins before the first frame of its world.
     let mut player = scene.build()?;
+    // Contacts at an amplitude for the eye would be far too deep.
+    let pairs: Vec<_> = player.simulation.world().scene().pairs().map(|(pair, _)| pair).collect();
+    for pair in pairs {
+        player.simulation.world_mut().set_pair_enabled(pair, false)?;
+    }
     let options = RecordOptions {
         name: format!("{}, {}", built.name, title(mode)),
         writer: concat!("pong modes ", env!("CARGO_PKG_VERSION")).to_owned(),

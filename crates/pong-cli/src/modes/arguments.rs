@@ -1,5 +1,6 @@
 //! Arguments of `pong modes`.
 
+use super::state::StateChoice;
 use crate::folders::AllowedFolders;
 use std::path::PathBuf;
 
@@ -13,12 +14,8 @@ pub(crate) struct Arguments {
     /// The scene file.
     #[arg(value_name = "SCENE.ron")]
     pub(super) scene: PathBuf,
-    /// Runs the scene to this time, s.
-    #[arg(long, value_name = "TIME", conflicts_with = "settle")]
-    pub(super) at: Option<f64>,
-    /// Runs the scene until all bodies rest, at most for its duration.
-    #[arg(long)]
-    pub(super) settle: bool,
+    #[command(flatten)]
+    pub(super) state: StateChoice,
     /// Prints the modes as CSV.
     #[arg(long, conflicts_with = "json")]
     pub(super) csv: bool,

@@ -1,6 +1,5 @@
-//! State of a scene whose modes are computed: its start, a time, or rest.
+//! State of a scene that is looked at: its start, a time, or rest.
 
-use super::arguments::Arguments;
 use crate::terminal::Failure;
 use crate::text::number;
 use pong_executive::Simulation;
@@ -13,18 +12,29 @@ const SHARE_AT_REST: f64 = 1e-10;
 /// Kinetic energy, relative to that of all free bodies at 1 m/s, below which bodies rest whatever happened before.
 const ENERGY_AT_REST: f64 = 1e-20;
 
+/// Options that choose the state of a scene.
+#[derive(clap::Args)]
+pub(crate) struct StateChoice {
+    /// Runs the scene to this time, s.
+    #[arg(long, value_name = "TIME", conflicts_with = "settle")]
+    pub(crate) at: Option<f64>,
+    /// Runs the scene until all bodies rest, at most for its duration.
+    #[arg(long)]
+    pub(crate) settle: bool,
+}
+
 /// Runs a scene to its state and returns a description of this state.
-pub(super) fn reach(arguments: &Arguments, built: &mut BuiltScene) -> Result<String, Failure> {
+pub(crate) fn reach(choice: &StateChoice, built: &mut BuiltScene) -> Result<String, Failure> {
     let simulation = &mut built.simulation;
     simulation.commit_initial_states()?;
-    if let Some(time) = arguments.at {
+    if let Some(time) = choice.at {
         if !(time >= 0.0 && time.is_finite()) {
             return Err(format!("--at: it is {time} s; give a finite time from zero up").into());
         }
         simulation.run_for(time)?;
         return Ok(format!("at t = {} s", number(simulation.time())));
     }
-    if !arguments.settle {
+    if !choice.settle {
         return Ok("at the start".to_owned());
     }
     let rests = settle(simulation, built.steps)?;

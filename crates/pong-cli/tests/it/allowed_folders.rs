@@ -58,6 +58,7 @@ fn models_and_scenes_read_outside_their_folder_with_leave() {
         "run rest.ron --quiet --log log --every-step --overwrite",
         "advise rest.ron",
         "modes rest.ron",
+        "interface rest.ron --of ball --on sheet",
         "advise own/sheet.ron --mass 1 --step 1e-3",
         "trade rest.ron --quiet --halvings 1 --rounds 1 --levers step -o traded",
         "tune rest.ron --quiet --rounds 2 --frames 16",

@@ -9,6 +9,7 @@ mod doctor;
 mod fit;
 mod fmu;
 mod import;
+mod interface;
 mod join;
 mod left_out;
 mod man_pages;

@@ -70,7 +70,7 @@ fn a_shape_is_written_as_a_log() {
     let (code, _, err) = pong(&folder, &["view", "shape"]);
     assert_eq!(code, 0, "{err}");
     let (code, out, _) = pong(&folder, &["log", "shape", "--csv", "tables"]);
-    assert!(code == 0 && out.contains("193 frames"), "{out}");
+    assert!(code == 0 && out.contains("193 frames") && out.contains("0 contacts"), "{out}");
     assert_eq!(pong(&folder, &["modes", "rest.ron", "--mode", "6", "--log", "shape"]).0, 1);
     assert_eq!(pong(&folder, &["modes", "rest.ron", "--mode", "6", "--log", "shape", "--overwrite"]).0, 0);
 }

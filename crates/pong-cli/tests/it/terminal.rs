@@ -94,6 +94,7 @@ fn a_lost_standard_error_changes_no_exit_code() {
         (&["tune", "none"], 1),
         (&["trade", "none"], 1),
         (&["modes", "none"], 1),
+        (&["interface", "none", "--of", "a", "--on", "b"], 1),
         (&["advise", "none.ron", "--mass", "1"], 1),
         (&["verify", "--only", "V999"], 2),
         (&["fly"], 2),

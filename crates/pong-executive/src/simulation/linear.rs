@@ -5,7 +5,7 @@ use crate::body::BodyId;
 use crate::error::Result;
 use crate::load::Load;
 use crate::spring::{Spring, SpringEnd};
-use pong_advise::{Carrier, LinearBody, LinearSystem};
+use pong_advise::{Carrier, LinearBody, LinearSystem, contact_name};
 use pong_engine::{Contact, EngineError, InterfaceId, PairTangent, TangentMatrix};
 use pong_geometry::{Mat3, Pose, Quat, Twist, Vec3, Wrench};
 
@@ -125,9 +125,7 @@ impl Simulation {
                 let ratio = springs.tangential.damping / springs.tangential.stiffness;
                 linear.least_ratio = linear.least_ratio.min(ratio);
             }
-            let [a, b] =
-                [&contact.a, &contact.b].map(|side| scene.primitive_name(side.interface, side.primitive));
-            let name = format!("{} · {}", a?, b?);
+            let name = contact_name(scene, contact)?;
             let along = contact.normal * contact.normal.transpose();
             let spring =
                 along * springs.normal.stiffness + (Mat3::identity() - along) * springs.tangential.stiffness;

@@ -10,7 +10,7 @@ mod rerun;
 pub use compare::Difference;
 pub use options::ReplayOptions;
 pub use report::{Obstacle, ReplayReport};
-pub use rerun::{RerunFrame, rerun, world_of_log};
+pub use rerun::{RerunFrame, rerun, world_at, world_of_log};
 
 use crate::error::LogError;
 use crate::read::{Frame, Log};

@@ -3,6 +3,7 @@
 use super::options::ReplayOptions;
 use super::rebuild;
 use super::replayed_world::Replay;
+use super::report::Obstacle;
 use crate::error::LogError;
 use crate::read::{Frame, Log};
 use pong_engine::{InterfaceId, World};
@@ -59,6 +60,33 @@ pub fn rerun<E: From<LogError>>(
         each(&RerunFrame { index, logged: &frame, world, bodies, took_ns })?;
     }
     Ok(())
+}
+
+/// World of a log as it is at a frame, given its index: the frame is committed as in the log, and evaluated again, so that
+/// its bristles are there. The obstacle is the first reason why the contact state may differ from that of the run.
+///
+/// # Errors
+/// A log that cannot be read, or whose world cannot be built; [`LogError::Refused`] for a frame that does not exist.
+pub fn world_at(
+    log: &mut Log,
+    options: ReplayOptions<'_>,
+    index: u64,
+) -> Result<(World, Option<Obstacle>), LogError> {
+    if index >= log.frame_count() {
+        let cause = format!("there is no frame {index}: the log has {}", log.frame_count());
+        return Err(LogError::refused(cause, "choose one of its frames"));
+    }
+    let mut replay = Replay::new(log, &of_any_hash(options))?;
+    let (mut frame, mut obstacle) = (Frame::default(), None);
+    for index in 0..=index {
+        log.read(index, &mut frame)?;
+        let here = replay.obstacle(&frame.row);
+        obstacle = obstacle.or(here);
+        replay.run(log, &frame)?;
+        replay.accept(&frame.row)?;
+    }
+    replay.world.evaluate()?;
+    Ok((replay.world, obstacle))
 }
 
 /// With a tolerance the hash of the world may differ from that of the log.
