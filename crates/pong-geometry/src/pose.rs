@@ -1,7 +1,7 @@
 //! Poses, twists and wrenches, and the motion between two poses.
 
 use crate::{Mat3, Quat, Vec3};
-use nalgebra::Quaternion;
+use nalgebra::{Matrix3x6, Quaternion};
 
 /// Position and orientation of a frame *g* seen from a frame *w*: half of the state that a host sets for a
 /// movable group.
@@ -213,6 +213,22 @@ fn arctangent_ratio<const TERMS: usize>(square: f64) -> f64 {
         ratio = 1.0 / (2 * k + 1) as f64 - square * ratio;
     }
     ratio
+}
+
+/// Derivatives of a vector that is fixed to a body by a small motion of the body: columns of a translation (zero) and of a
+/// rotation φ, φ × v.
+pub fn turn_slopes(vector: &Vec3) -> Matrix3x6<f64> {
+    let mut slopes = Matrix3x6::zeros();
+    slopes.fixed_view_mut::<3, 3>(0, 3).copy_from(&-vector.cross_matrix());
+    slopes
+}
+
+/// Derivatives of a material point at `place`, m, by a small motion of its body: a translation of the material point at the
+/// origin, and a rotation φ about the origin, u + φ × place.
+pub fn displacement_slopes(place: &Vec3) -> Matrix3x6<f64> {
+    let mut slopes = turn_slopes(place);
+    slopes.fixed_view_mut::<3, 3>(0, 0).copy_from(&Mat3::identity());
+    slopes
 }
 
 /// Rotates `p`, a vector perpendicular to the unit normal `from`, by the smallest rotation that takes `from`

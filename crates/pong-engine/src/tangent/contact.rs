@@ -1,14 +1,14 @@
 //! Derivatives of the force of one contact.
 
 use super::friction::{FrictionSlopes, Rubbing};
-use super::moves::{Moves, displacement, plane_axes};
+use super::moves::{Moves, plane_axes};
 use crate::frame::FrameContact;
 use crate::frame::input::PairContext;
 use crate::frame::input::moving_surfaces::MovingPlace;
 use crate::law::normal_tangent;
 use crate::state::ContactRecord;
 use nalgebra::{Matrix3x6, RowVector6, SMatrix};
-use pong_geometry::pose::carry_by_smallest_rotation;
+use pong_geometry::pose::{carry_by_smallest_rotation, displacement_slopes};
 use pong_geometry::primitive::PrimitiveKind;
 use pong_geometry::{Mat3, Vec3};
 
@@ -164,7 +164,7 @@ impl Moving<'_> {
         let element = context.body_a.element(self.kind_a, found.element_a);
         let reference = element.reference_point(found.key.end);
         let (before, now) = (since.x_ba.point(&reference), context.motion.x_ba.point(&reference));
-        let of_now = displacement(&now);
+        let of_now = displacement_slopes(&now);
         let present = contact.point_b - now;
         let half = if self.record.is_some() { 0.5 } else { 1.0 };
         let lever = self.record.map_or(present, |record| ((record.point_b - before) + present) * 0.5);

@@ -12,6 +12,7 @@
 
 use super::shape::Shape;
 use nalgebra::{Matrix2, Matrix3x6, RowVector6, Vector2};
+use pong_geometry::pose::{displacement_slopes, turn_slopes};
 use pong_geometry::{Mat3, Vec3};
 
 /// Derivatives of a contact with respect to (u, φ): 3 translations, m, and 3 rotations, rad.
@@ -34,27 +35,12 @@ pub(super) struct Touch {
     pub deepest_b: Vec3,
 }
 
-/// Displacement u + φ × place of the material point of A at `place`.
-pub(super) fn displacement(place: &Vec3) -> Matrix3x6<f64> {
-    let mut moved = Matrix3x6::zeros();
-    moved.fixed_view_mut::<3, 3>(0, 0).copy_from(&Mat3::identity());
-    moved.fixed_view_mut::<3, 3>(0, 3).copy_from(&-place.cross_matrix());
-    moved
-}
-
-/// Turn φ × v of a vector that is fixed to A.
-pub(super) fn turn(vector: &Vec3) -> Matrix3x6<f64> {
-    let mut turned = Matrix3x6::zeros();
-    turned.fixed_view_mut::<3, 3>(0, 3).copy_from(&-vector.cross_matrix());
-    turned
-}
-
 impl Touch {
     /// Moves of the contact; `None` where the shapes determine none: A is flat, or both are straight and parallel.
     pub fn moves(&self, a: &Shape, b: &Shape) -> Option<Moves> {
-        let moved = displacement(&self.deepest_b);
+        let moved = displacement_slopes(&self.deepest_b);
         let depth = -(self.normal_b.transpose() * moved);
-        let turned = turn(&self.normal_b);
+        let turned = turn_slopes(&self.normal_b);
         let (normal, deepest) = match (a, b) {
             (Shape::Flat, _) => return None,
             (Shape::Round(h), Shape::Flat) => (Matrix3x6::zeros(), moved + h * turned),
@@ -67,14 +53,16 @@ impl Touch {
             (Shape::Round(h), Shape::Straight { along, radius }) => {
                 let across = self.normal_b.cross(along);
                 let gap = across.dot(&(h * across)) + radius - self.depth;
-                let normal = across * (across.transpose() * (moved + h * turned)) * inverse(gap)?;
+                let terms = h.amax() + radius.abs() + self.depth;
+                let normal = across * (across.transpose() * (moved + h * turned)) * inverse(gap, terms)?;
                 (normal, moved - h * (normal - turned))
             }
             (Shape::Straight { along, radius }, Shape::Round(h)) => {
                 let across = self.normal_b.cross(along);
                 let rest = h - Mat3::identity() * self.depth;
                 let gap = across.dot(&(rest * across)) + radius;
-                let free = across * (across.transpose() * (moved - rest * turned)) * inverse(gap)?;
+                let terms = h.amax() + radius.abs() + self.depth;
+                let free = across * (across.transpose() * (moved - rest * turned)) * inverse(gap, terms)?;
                 let normal = turned + free;
                 (normal, self.moved_with_b(&(h * normal), &depth, &normal))
             }
@@ -128,7 +116,7 @@ impl Touch {
     /// Slide along A's edge, so that the rest is a slide along B's edge.
     fn slide(&self, along: &Vec3, other: &Vec3, rest: &Matrix3x6<f64>) -> Option<RowVector6<f64>> {
         let across = self.normal_b.cross(other);
-        Some(across.transpose() * rest * inverse(across.dot(along))?)
+        Some(across.transpose() * rest * inverse(across.dot(along), 1.0)?)
     }
 }
 
@@ -138,13 +126,19 @@ pub(super) fn plane_axes(normal: &Vec3) -> [Vec3; 2] {
     [e, normal.cross(&e)]
 }
 
-fn inverse(number: f64) -> Option<f64> {
-    (number.abs() > 1e-12).then(|| 1.0 / number.abs().max(f64::MIN_POSITIVE).copysign(number))
+/// Inverse of a number; `None` for zero to rounding, relative to the size of its terms.
+fn inverse(number: f64, terms: f64) -> Option<f64> {
+    /// Rounding of a sum of a few terms.
+    const ROUNDING: f64 = 1e-12;
+    (number.abs() > ROUNDING * terms).then(|| 1.0 / number.abs().max(f64::MIN_POSITIVE).copysign(number))
 }
 
+/// Inverse of a matrix; `None` if its rows are parallel.
 fn well_inverted(matrix: &Matrix2<f64>) -> Option<Matrix2<f64>> {
+    /// Sine between the rows below which a turn of the normal is known to less than half of the digits.
+    const PARALLEL: f64 = 1e-9;
     let [first, second] = [0, 1].map(|row| Vector2::new(matrix[(row, 0)], matrix[(row, 1)]).norm());
-    (matrix.determinant().abs() > 1e-9 * first * second).then(|| matrix.try_inverse()).flatten()
+    (matrix.determinant().abs() > PARALLEL * first * second).then(|| matrix.try_inverse()).flatten()
 }
 
 #[cfg(test)]

@@ -3,10 +3,11 @@
 //! A ray of length L hits the surface at the distance t along its direction d; N is the surface normal there. The
 //! hit stays on the surface: dt = −N·u(hit)/(d·N). Depth and normal are L − t and −d, or (L − t)·(−d·N) and N.
 
-use super::moves::{Moves, displacement, turn};
+use super::moves::Moves;
 use super::shape::Shape;
 use pong_geometry::extension::PrimitiveRef;
 use pong_geometry::interference::Feature;
+use pong_geometry::pose::{displacement_slopes, turn_slopes};
 use pong_geometry::primitive::{Ray, RayResponse};
 use pong_geometry::{Mat3, Vec3};
 
@@ -28,17 +29,17 @@ impl RayHit {
     pub fn moves(&self, shape: &Shape) -> Option<Moves> {
         let Self { ray, distance, normal_b: normal } = self;
         let (direction, place) = (ray.direction, self.place());
-        let moved = displacement(&place);
+        let moved = displacement_slopes(&place);
         let closing = direction.dot(normal);
         let travelled = -(normal.transpose() * moved) / closing;
-        let deepest = displacement(&ray.tip());
+        let deepest = displacement_slopes(&ray.tip());
         if ray.response == RayResponse::Axial {
-            return Some(Moves { depth: -travelled, normal: turn(&-direction), deepest });
+            return Some(Moves { depth: -travelled, normal: turn_slopes(&-direction), deepest });
         }
         let turned = normal_turns(shape, normal)? * (moved + direction * travelled);
         let shortening = ray.length - distance;
         let depth = travelled * closing
-            - (normal.transpose() * turn(&direction) + direction.transpose() * turned) * shortening;
+            - (normal.transpose() * turn_slopes(&direction) + direction.transpose() * turned) * shortening;
         Some(Moves { depth, normal: turned, deepest })
     }
 }

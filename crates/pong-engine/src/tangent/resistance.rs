@@ -4,11 +4,12 @@
 
 use super::contact::{ContactSlopes, Moving, carried_slopes, rotation_slopes};
 use super::friction::Rubbing;
-use super::moves::{displacement, plane_axes};
+use super::moves::plane_axes;
 use crate::frame::forces::couples::Resisted;
 use crate::frame::input::PairContext;
 use crate::law::FrictionProps;
 use nalgebra::{Matrix3x6, SMatrix};
+use pong_geometry::pose::displacement_slopes;
 use pong_geometry::{Mat3, Vec3};
 
 /// Variables: u and φ of the relative pose, relative velocity and relative angular velocity, at B's origin, in B's
@@ -166,7 +167,7 @@ fn since_touch(
     if approach <= found.depth {
         return slopes;
     }
-    let of_before = to_before * (point - displacement(point_b));
+    let of_before = to_before * (point - displacement_slopes(point_b));
     let of_approach =
         (before - point_b).transpose() * moves.normal + found.normal_b.transpose() * (of_before - point);
     let part = found.depth / approach;

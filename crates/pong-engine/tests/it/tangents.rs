@@ -223,3 +223,40 @@ fn what_has_no_tangent_is_named() {
     assert!(refused.contains("`tip/tip`") && refused.contains("law of the host"), "{refused}");
     assert_eq!(world.tangents_by_differences().unwrap().len(), 1);
 }
+
+/// Prints the time of the tangents of a frame beside that of the frame, for the scenes of the hash series, in the frame
+/// with the most contacts.
+#[test]
+#[ignore = "prints times, checks nothing"]
+fn cost_of_tangents() {
+    let shortest = |run: &mut dyn FnMut()| {
+        let times = (0..5).map(|_| {
+            let start = std::time::Instant::now();
+            run();
+            start.elapsed().as_secs_f64() * 1e6
+        });
+        times.fold(f64::INFINITY, f64::min)
+    };
+    for scene in scenes::all() {
+        let mut stage = scene.set_up(None);
+        let mut most: Option<(usize, f64, f64)> = None;
+        for frame in 0..scene.frames.min(60) {
+            stage.prepare(frame);
+            let of_frame = shortest(&mut || _ = stage.world.evaluate().unwrap());
+            let of_tangents = shortest(&mut || _ = stage.world.tangents());
+            let (contacts, known) = (stage.world.contact_count(), stage.world.tangents().is_ok());
+            if known && contacts > most.map_or(0, |(most, ..)| most) {
+                most = Some((contacts, of_frame, of_tangents));
+            }
+            stage.world.commit().unwrap();
+        }
+        if let Some((contacts, of_frame, of_tangents)) = most {
+            println!(
+                "{:<10} {contacts:>5} contacts, frame {of_frame:.1} us, tangents {of_tangents:.1} us: {:.2} of the frame, {:.2} us a contact",
+                scene.name,
+                of_tangents / of_frame,
+                of_tangents / contacts as f64
+            );
+        }
+    }
+}

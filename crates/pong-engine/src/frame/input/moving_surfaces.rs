@@ -4,7 +4,8 @@ use super::motion::{Motion, SinceCommit};
 use crate::scene::{SurfaceField, SurfaceMotion};
 use crate::state::{CommittedPoses, ContactRecord};
 use nalgebra::Matrix3x6;
-use pong_geometry::{Mat3, Transform, Vec3};
+use pong_geometry::pose::{displacement_slopes, turn_slopes};
+use pong_geometry::{Transform, Vec3};
 
 /// Velocity and travel of the surface of a movable group.
 #[derive(Clone, Copy, Debug)]
@@ -168,17 +169,10 @@ pub(crate) struct MovingPlace<'a> {
 fn relative_slopes(fields: &[SurfaceField; 2], x_ba: &Transform, place: &MovingPlace<'_>) -> Matrix3x6<f64> {
     let MovingPlace { point_b, normal_b, point_slopes, normal_slopes } = *place;
     let [linear, angular, belt] = fields[0].parts().map(|part| x_ba.vector(&part));
-    let turn = |vector: &Vec3| {
-        let mut slopes = Matrix3x6::zeros();
-        slopes.fixed_view_mut::<3, 3>(0, 3).copy_from(&-vector.cross_matrix());
-        slopes
-    };
-    let mut origin = turn(&x_ba.translation);
-    origin.fixed_view_mut::<3, 3>(0, 0).copy_from(&Mat3::identity());
     let arm = point_b - x_ba.translation;
-    let of_a = turn(&linear) - arm.cross_matrix() * turn(&angular)
-        + angular.cross_matrix() * (point_slopes - origin)
-        + normal_b.cross_matrix() * turn(&belt)
+    let of_a = turn_slopes(&linear) - arm.cross_matrix() * turn_slopes(&angular)
+        + angular.cross_matrix() * (point_slopes - displacement_slopes(&x_ba.translation))
+        + normal_b.cross_matrix() * turn_slopes(&belt)
         - belt.cross_matrix() * normal_slopes;
     let [_, angular, belt] = fields[1].parts();
     of_a - angular.cross_matrix() * point_slopes - belt.cross_matrix() * normal_slopes
