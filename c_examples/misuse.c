@@ -187,6 +187,7 @@ static void order_after_seal(scene *s)
     REFUSED(pong_get_wrench(s->world, s->interfaces[0], PONG_REFERENCE_FRAME_GROUP, &wrench), WRONG_PHASE, "evaluate");
     REFUSED(pong_get_tangents(s->world, &tangent, 1, &count), WRONG_PHASE, "evaluate a frame");
     REFUSED(pong_get_tangents_by_differences(s->world, &tangent, 1, &count), WRONG_PHASE, "evaluate a frame");
+    REFUSED(pong_get_complete_tangents(s->world, &tangent, 1, &count), WRONG_PHASE, "evaluate a frame");
     REFUSED(pong_step(s->world), UNSET_STATE, "ball/ball");
     REFUSED(pong_commit(s->world), UNSET_STATE, "ball/ball");
     REFUSED(pong_seal(s->world, NULL), WRONG_PHASE, "before the world is sealed");

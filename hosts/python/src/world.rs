@@ -2,7 +2,7 @@
 
 use crate::arrays::{self, Matrix, WRENCH};
 use crate::distance::Distance;
-use crate::errors::{PhaseError, bad_value, of_engine};
+use crate::errors::{bad_value, of_engine};
 use crate::frame_report::{self, FrameReport};
 use crate::ids::{self, AddedModel, Interface, Object, ObjectRef, Pair};
 use crate::model::{surface_from, surface_values};
@@ -515,23 +515,14 @@ impl World {
     ///     A contact has derivatives that are not known in closed form: use `complete_tangents`.
     #[pyo3(signature = (differences = false))]
     fn tangents(&self, py: Python<'_>, differences: bool) -> PyResult<Vec<Tangent>> {
-        let world = &mut self.lock()?.world;
-        tangents::of_frame(py, world, |world| {
-            if differences { world.tangents_by_differences() } else { world.tangents() }
-        })
+        tangents::of_frame(py, &mut self.lock()?.world, tangents::all(differences))
     }
 
-    /// Returns the same as `tangents`, for every kind of contact: in closed form for two groups whose contacts all have
-    /// it, by central differences for others.
+    /// Returns the same as `tangents`, by differences for two groups with a contact that has no closed form.
     ///
     /// Returns
     /// -------
     /// list of Tangent
-    ///
-    /// Raises
-    /// ------
-    /// PhaseError
-    ///     No frame is evaluated, or it is committed.
     fn complete_tangents(&self, py: Python<'_>) -> PyResult<Vec<Tangent>> {
         tangents::of_frame(py, &mut self.lock()?.world, pong_engine::World::complete_tangents)
     }
@@ -778,15 +769,10 @@ impl World {
         overwrite: bool,
         lose: bool,
     ) -> PyResult<()> {
-        let mut inner = self.lock()?;
         let when_full = if lose { WhenFull::Lose } else { WhenFull::Wait };
         let options = RecordOptions { name: name.to_owned(), step, ..RecordOptions::default() };
         let options = RecordOptions { commits_per_frame, overwrite, when_full, ..options };
-        if inner.recorder.is_some() {
-            return Err(PhaseError::new_err("log: one is open already; call stop_log first"));
-        }
-        inner.recorder = Some(recording::start(&inner.world, &inner.sources, folder, options)?);
-        Ok(())
+        recording::start(&mut self.lock()?, folder, options)
     }
 
     /// Records the frame last computed.
@@ -798,7 +784,7 @@ impl World {
     fn log_frame(&self, py: Python<'_>, time: f64) -> PyResult<()> {
         let mut inner = self.lock()?;
         let Inner { world, recorder, .. } = &mut **inner;
-        recording::record(py, recorder.as_mut().ok_or_else(no_log)?, world, time)
+        recording::record(py, recorder.as_mut().ok_or_else(recording::none)?, world, time)
     }
 
     /// Writes the remaining data and closes the log.
@@ -808,11 +794,7 @@ impl World {
     /// int
     ///     Number of frames in the log.
     fn stop_log(&self, py: Python<'_>) -> PyResult<u64> {
-        let recorder = self.lock()?.recorder.take().ok_or_else(no_log)?;
+        let recorder = self.lock()?.recorder.take().ok_or_else(recording::none)?;
         recording::finish(py, recorder)
     }
-}
-
-fn no_log() -> PyErr {
-    PhaseError::new_err("log: none is open; call start_log first")
 }
