@@ -191,6 +191,7 @@ static void order_after_seal(scene *s)
     REFUSED(pong_get_wrench(s->world, s->interfaces[0], PONG_REFERENCE_FRAME_GROUP, &wrench), WRONG_PHASE, "evaluate");
     REFUSED(pong_get_tangents(s->world, &tangent, 1, &count), WRONG_PHASE, "evaluate a frame");
     REFUSED(pong_get_tangents_by_differences(s->world, &tangent, 1, &count), WRONG_PHASE, "evaluate a frame");
+    REFUSED(pong_get_complete_tangents(s->world, &tangent, 1, &count), WRONG_PHASE, "evaluate a frame");
     REFUSED(pong_get_incremental_potentials(s->world, 1e-2, NULL, 0, &count), WRONG_PHASE, "evaluate a frame");
     REFUSED(pong_get_surface_slopes(s->world, s->ball_model, "x", "y", NULL, 0, &count), WRONG_PHASE, "evaluate a frame");
     REFUSED(pong_step(s->world), UNSET_STATE, "ball/ball");

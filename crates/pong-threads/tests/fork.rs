@@ -57,7 +57,7 @@ fn without_any_worker_left_the_caller_completes_alone() {
             std::thread::sleep(Duration::from_millis(50));
         }
         let completes = in_a_fork(|| {
-            let complete = (0..1000).all(|_| {
+            let complete = (0..20).all(|_| {
                 let outcome = pool.run(20);
                 let once = count.runs.iter().all(|runs| runs.swap(0, SeqCst) == 1);
                 outcome == Outcome::Complete && once && pool.is_quiet()

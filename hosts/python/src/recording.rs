@@ -1,21 +1,21 @@
 //! Response logs of a world whose frames a Python program computes.
 
 use crate::errors::{LogError, PhaseError, of_log};
+use crate::sealed::Inner;
 use pong_engine::World;
-use pong_record::{ModelSource, RecordOptions, Recorder};
+use pong_record::{RecordOptions, Recorder};
 use pyo3::prelude::*;
 use std::path::PathBuf;
 
 /// Begins a log of a world in a folder.
-pub(crate) fn start(
-    world: &World,
-    sources: &[ModelSource],
-    folder: PathBuf,
-    options: RecordOptions,
-) -> PyResult<Recorder> {
+pub(crate) fn start(inner: &mut Inner, folder: PathBuf, options: RecordOptions) -> PyResult<()> {
+    if inner.recorder.is_some() {
+        return Err(PhaseError::new_err("log: one is open already; call stop_log first"));
+    }
     let writer = concat!("pong for Python ", env!("CARGO_PKG_VERSION")).to_owned();
     let options = RecordOptions { writer, ..options };
-    Recorder::start(world, &folder, sources, &options).map_err(of_log)
+    inner.recorder = Some(Recorder::start(&inner.world, &folder, &inner.sources, &options).map_err(of_log)?);
+    Ok(())
 }
 
 pub(crate) fn record(py: Python<'_>, recorder: &mut Recorder, world: &mut World, time: f64) -> PyResult<()> {
@@ -41,6 +41,11 @@ pub(crate) fn preloaded(recorder: &mut Recorder, world: &World) {
     let mut block = Vec::new();
     world.save_state_packed(&mut block);
     recorder.restored(&block);
+}
+
+/// Error for a call without a log.
+pub(crate) fn none() -> PyErr {
+    PhaseError::new_err("log: none is open; call start_log first")
 }
 
 /// Error for a world that is to go on where another one is while its log is running.

@@ -64,6 +64,11 @@ fn blocks<'py>(py: Python<'py>, blocks: &[[TangentMatrix; 2]; 2]) -> PyResult<Bl
     PyArray1::from_vec(py, (0..144).map(number).collect()).reshape([2, 2, 6, 6])
 }
 
+/// The function of a world that gives tangents in closed form or by differences.
+pub(crate) fn all(differences: bool) -> fn(&mut World) -> Result<Vec<PairTangent>, EngineError> {
+    if differences { World::tangents_by_differences } else { |world| world.tangents() }
+}
+
 /// Tangents of the last frame of a world, by one of its functions.
 pub(crate) fn of_frame(
     py: Python<'_>,

@@ -2,7 +2,7 @@
 
 use crate::arrays::{self, Matrix, WRENCH};
 use crate::distance::Distance;
-use crate::errors::{PhaseError, bad_value, of_engine};
+use crate::errors::{bad_value, of_engine};
 use crate::frame_report::{self, FrameReport};
 use crate::ids::{self, AddedModel, Interface, Object, ObjectRef, Pair};
 use crate::model::{surface_from, surface_values};
@@ -729,15 +729,10 @@ impl World {
         overwrite: bool,
         lose: bool,
     ) -> PyResult<()> {
-        let mut inner = self.lock()?;
         let when_full = if lose { WhenFull::Lose } else { WhenFull::Wait };
         let options = RecordOptions { name: name.to_owned(), step, ..RecordOptions::default() };
         let options = RecordOptions { commits_per_frame, overwrite, when_full, ..options };
-        if inner.recorder.is_some() {
-            return Err(PhaseError::new_err("log: one is open already; call stop_log first"));
-        }
-        inner.recorder = Some(recording::start(&inner.world, &inner.sources, folder, options)?);
-        Ok(())
+        recording::start(&mut self.lock()?, folder, options)
     }
 
     /// Records the frame last computed.
@@ -749,7 +744,7 @@ impl World {
     fn log_frame(&self, py: Python<'_>, time: f64) -> PyResult<()> {
         let mut inner = self.lock()?;
         let Inner { world, recorder, .. } = &mut **inner;
-        recording::record(py, recorder.as_mut().ok_or_else(recording::none_open)?, world, time)
+        recording::record(py, recorder.as_mut().ok_or_else(recording::none)?, world, time)
     }
 
     /// Writes the remaining data and closes the log.
@@ -759,7 +754,7 @@ impl World {
     /// int
     ///     Number of frames in the log.
     fn stop_log(&self, py: Python<'_>) -> PyResult<u64> {
-        let recorder = self.lock()?.recorder.take().ok_or_else(recording::none_open)?;
+        let recorder = self.lock()?.recorder.take().ok_or_else(recording::none)?;
         recording::finish(py, recorder)
     }
 }

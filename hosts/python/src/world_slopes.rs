@@ -39,10 +39,7 @@ impl World {
     ///     A contact has derivatives that are not known in closed form: use `complete_tangents`.
     #[pyo3(signature = (differences = false))]
     fn tangents(&self, py: Python<'_>, differences: bool) -> PyResult<Vec<Tangent>> {
-        let world = &mut self.lock()?.world;
-        tangents::of_frame(py, world, |world| {
-            if differences { world.tangents_by_differences() } else { world.tangents() }
-        })
+        tangents::of_frame(py, &mut self.lock()?.world, tangents::all(differences))
     }
 
     /// Returns the same as `tangents`, for every kind of contact: in closed form for two groups whose contacts all have
