@@ -25,6 +25,9 @@ use pong_geometry::{Vec3, any_perpendicular, divisor};
 /// each other, and the direction of their sum is rounding.
 const LEAST_RESULTANT: f64 = 1e-9;
 
+/// Thickness of a patch, relative to coordinates, up to which rounding alone may have made it.
+const THICKNESS_OF_ROUNDING: f64 = 64.0 * f64::EPSILON;
+
 /// Mean lever of a uniform disc over its radius of gyration, 2√2/3.
 const MEAN_LEVER: f64 = 0.942_809_041_582_063_4;
 
@@ -164,7 +167,7 @@ impl Patch<'_> {
         }
     }
 
-    /// Resultant of the forces; `None` if they cancel, or if there are none.
+    /// Resultant of the forces; `None` if they cancel, if there are none, or if only rounding has made the shared volume.
     fn resultant(&self, forces: &[CellForce], fields: (&FieldCells, &FieldCells)) -> Option<Resultant> {
         let sum: Vec3 = forces.iter().map(|cell| cell.normal_b * cell.force).sum();
         let (force, pressed) = (sum.norm(), forces.iter().map(|cell| cell.force).sum::<f64>());
@@ -193,7 +196,18 @@ impl Patch<'_> {
             lever(&of_a.sum(), &of_a.reference_b, &x_ab.point(&center), &x_ab.vector(&normal))
         };
         let (area, depth) = (volume * volume / divisor(2.0 * depths), 2.0 * depths / divisor(volume));
+        // Volume over the largest cross section is the thickness. Parts that touch along a wall between pieces share such
+        // a volume or none, and a bristle must not depend on it.
+        if volume <= THICKNESS_OF_ROUNDING * self.coordinates() * lever * depth.max(lever) {
+            return None;
+        }
         Some(Resultant { normal, force, center, area, depth, lever })
+    }
+
+    /// Size of the coordinates whose rounding the shared volume has, m.
+    fn coordinates(&self) -> f64 {
+        let of_a = self.sides.0.parts.iter().map(|part| part.bound.center.norm() + part.bound.half.norm());
+        self.relative.x_ba.translation.norm() + of_a.fold(0.0, f64::max)
     }
 
     /// Adds the friction as two contacts beside the centre, whose forces have the resultant and the couple of
