@@ -168,10 +168,13 @@ def report(tosses, given, chosen):
 
 
 def carried(part, chosen):
-    """Parameters of the first 0.15 s, used over whole tosses."""
+    """Parameters of the first 0.15 s, used over whole tosses: with other bodies than the published one, and with it where an
+    engine has none of whole tosses.
+    """
     if part != "whole":
         return []
-    return [one for one in study.found("touch", chosen) if one[2].body != "published"]
+    own = {entry.engine for _, _, entry in study.found("whole", chosen)}
+    return [one for one in study.found("touch", chosen) if one[2].body != "published" or one[2].engine not in own]
 
 
 def reference_entry():

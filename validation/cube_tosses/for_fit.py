@@ -38,7 +38,7 @@ SCENE = """(
 )"""
 
 
-def records(tosses, part):
+def records(tosses, part=0):
     """Number and frames of every third toss that has enough of them around its first touch."""
     found = []
     for number in range(part, len(tosses), 3):
