@@ -55,8 +55,3 @@ pub(crate) fn is_running() -> PyErr {
          with stop_log() first, and begin another one afterwards",
     )
 }
-
-/// Error for a call that needs an open log.
-pub(crate) fn none_open() -> PyErr {
-    PhaseError::new_err("log: none is open; call start_log first")
-}
