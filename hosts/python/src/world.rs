@@ -772,7 +772,7 @@ impl World {
         let when_full = if lose { WhenFull::Lose } else { WhenFull::Wait };
         let options = RecordOptions { name: name.to_owned(), step, ..RecordOptions::default() };
         let options = RecordOptions { commits_per_frame, overwrite, when_full, ..options };
-        recording::start(&mut self.lock()?, folder, options)
+        recording::start(&mut **self.lock()?, folder, options)
     }
 
     /// Records the frame last computed.

@@ -14,7 +14,7 @@ use pong_slow::{Dynamics, GroupInput, Settings, SlowError, SlowHost};
 pub(crate) struct LongFrames {
     /// The host of the copies; `None` until the next frame after a change of the world.
     pub host: Option<SlowHost>,
-    /// What a late host kept before the present frame, with the impulses that are on their way; empty without a delay.
+    /// Saved state of a late host before the present frame, with the impulses on their way; empty without a delay.
     before: Vec<u8>,
     rates: Vec<Rates>,
 }
