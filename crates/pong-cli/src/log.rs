@@ -1,9 +1,9 @@
-//! `pong log`: description of a response log, and the log as CSV.
+//! `pong log`: description of a response log, the log as CSV, and the tangents of its frames.
 
-use crate::terminal::{Outcome, print};
+use crate::terminal::{Outcome, print, tell};
 use crate::text::{count, number};
 use pong_model::printable;
-use pong_record::{CsvTables, Frame, Log, LogError};
+use pong_record::{CsvTables, Frame, Log, LogError, ReplayOptions, write_tangents};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -17,6 +17,10 @@ pub(crate) struct Arguments {
     /// Writes states.csv, wrenches.csv, contacts.csv and, if the log has energies, energies.csv into this folder.
     #[arg(long, value_name = "DIR")]
     csv: Option<PathBuf>,
+    /// Replays the log and writes the derivatives of the wrenches of every two bodies that touch, frame by frame, as this
+    /// NumPy file.
+    #[arg(long, value_name = "FILE.npy")]
+    tangents: Option<PathBuf>,
     /// No description.
     #[arg(short, long)]
     quiet: bool,
@@ -29,6 +33,13 @@ pub(crate) fn main(arguments: &Arguments) -> Outcome {
     }
     if let Some(folder) = &arguments.csv {
         export(&mut log, folder)?;
+    }
+    if let Some(file) = &arguments.tangents {
+        let (count, obstacle) = write_tangents(&mut log, ReplayOptions::default(), file)?;
+        print(&format!("{}: {}\n", file.display(), rows(count, "tangent")));
+        if let Some(obstacle) = obstacle {
+            tell(format!("not exact from frame {} on: {obstacle}", obstacle.frame()));
+        }
     }
     Ok(ExitCode::SUCCESS)
 }

@@ -31,7 +31,8 @@ pub use format::VERSION;
 pub use read::{Frame, Log};
 pub use replay::{
     Difference, Obstacle, ReplayOptions, ReplayReport, RerunFrame, replay, rerun, world_at, world_of_log,
+    write_tangents,
 };
 pub use run::{Run, RunAccounts, RunBody, RunModel, RunObject, RunPrimitive, RunTable};
-pub use table::{ContactRow, EnergyRow, FrameRow, StateRow, WrenchRow};
+pub use table::{ContactRow, EnergyRow, FrameRow, StateRow, TangentRow, WrenchRow};
 pub use write::{LONGEST_WAIT, ModelSource, RecordOptions, RecordStatus, Recorder, WhenFull};

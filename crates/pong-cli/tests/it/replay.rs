@@ -1,6 +1,8 @@
 //! Logs on the command line: `pong run --log`, `pong log`, `pong replay`; a run that is killed; a full disk.
 
 use crate::common;
+use pong_record::TangentRow;
+use pong_record::table::TableFile;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
@@ -181,4 +183,30 @@ fn a_full_disk_is_told_and_the_run_goes_on() {
     let (_, out, _) = pong(&folder, "log log");
     assert!(out.contains("not closed"), "{out}");
     assert_eq!(pong(&folder, "replay log -q").0, 0, "what was flushed is whole");
+}
+
+/// A ball of 1e5 N/m on the ground: each frame has its stiffness up against up, on both bodies.
+#[test]
+fn the_tangents_of_a_log_are_those_of_its_frames() {
+    let ball = r#"(format: "pong-model", version: 1, name: "ball",
+        surfaces: { "soft": (stiffness: 1e5, normal: Linear(damping: 20.0), friction: Bristle(mu: 0.5, damping: 10.0)) },
+        root: (name: "ball", surface: "soft", primitives: [Sphere(name: "skin", center: (0, 0, 0), radius: 0.1)]))"#;
+    let folder = common::resting_ball("replay/tangents", ball, 0.02);
+    assert_eq!(common::pong(&folder, &["run", "rest.ron", "--quiet", "--every-step", "--log", "log"]).0, 0);
+    let (code, out, err) = common::pong(&folder, &["log", "log", "--quiet", "--tangents", "tangents.npy"]);
+    assert_eq!((code, err.as_str()), (0, ""), "{out}");
+    assert_eq!(out, "tangents.npy: 21 tangents\n");
+    let mut table = TableFile::<TangentRow>::open(&folder.join("tangents.npy"), None).unwrap();
+    let mut rows = Vec::new();
+    table.read(0, table.rows(), &mut rows).unwrap();
+    assert_eq!(rows.len(), 21);
+    for (index, row) in rows.iter().enumerate() {
+        assert_eq!((row.frame, row.body_a, row.body_b, row.by_differences), (index as u64, 0, 1, 0));
+        for (i, j, sign) in [(2, 2, 1.0), (2, 8, -1.0), (8, 2, -1.0), (8, 8, 1.0)] {
+            assert!((row.stiffness[i][j] - sign * 1e5).abs() < 1e-4, "{}", row.stiffness[i][j]);
+            assert!((row.damping[i][j] - sign * 20.0).abs() < 1e-9, "{}", row.damping[i][j]);
+        }
+    }
+    let refused = common::pong(&folder, &["log", "log", "--quiet", "--tangents", "none/tangents.npy"]);
+    assert!(refused.0 == 1 && refused.2.contains("none/tangents.npy"), "{refused:?}");
 }

@@ -14,6 +14,8 @@ use pong_slow::{Dynamics, GroupInput, Settings, SlowError, SlowHost};
 pub(crate) struct LongFrames {
     /// The host of the copies; `None` until the next frame after a change of the world.
     pub host: Option<SlowHost>,
+    /// Saved state of a late host before the present frame, with the impulses on their way; empty without a delay.
+    before: Vec<u8>,
     rates: Vec<Rates>,
 }
 
@@ -23,12 +25,24 @@ pub(crate) fn settings(substeps_max: u32, delay_frames: u32) -> Settings {
 }
 
 impl LongFrames {
-    /// Makes the host of the copies if there is none, with the contact state of the world.
-    pub fn prepare(&mut self, world: &World, settings: Settings) -> Result<&mut SlowHost> {
+    /// Takes another host, or none, and drops what was kept.
+    pub fn begin_anew(&mut self, host: Option<SlowHost>) {
+        self.host = host;
+        self.before.clear();
+    }
+
+    /// Makes the host of the copies if there is none, with the contact state of the world. A late host goes on with the
+    /// impulses that are on their way, as the bodies will feel them.
+    pub fn prepare(&mut self, world: &World, settings: Settings) -> Result<()> {
         if self.host.is_none() {
-            self.host = Some(SlowHost::new(world, settings).map_err(refused)?);
+            let mut host = SlowHost::new(world, settings).map_err(refused)?;
+            // Bytes of a scene with other surfaces are refused; the queue then begins empty.
+            if !self.before.is_empty() && host.restore_state(&self.before).is_err() {
+                host = SlowHost::new(world, settings).map_err(refused)?;
+            }
+            self.host = Some(host);
         }
-        Ok(self.host.as_mut().expect("made above"))
+        Ok(())
     }
 
     /// Replaces the contact wrenches of the system, which has been placed at `time`, by those to hold over a frame.
@@ -42,7 +56,11 @@ impl LongFrames {
         let none = vec![Wrench::zero(); system.bodies.len()];
         system.rates(time, states, &none, &mut self.rates);
         let inputs = inputs(system, states, &self.rates, (time, frame));
-        let host = self.prepare(&system.world, settings)?;
+        self.prepare(&system.world, settings)?;
+        let Self { host: Some(host), before, .. } = self else { return Ok(()) };
+        if settings.delay_frames > 0 {
+            *before = host.save_state();
+        }
         host.step(frame, &inputs).map_err(refused)?;
         for (body, wrench) in system.bodies.iter().zip(&mut system.contact) {
             if let Some(interface) = body.interface {

@@ -86,7 +86,7 @@ impl Simulation {
             copies = Some(host);
         }
         self.system.world.restore_state(instant.block)?;
-        self.long_frames.host = copies;
+        self.long_frames.begin_anew(copies);
         (self.step, self.epoch, self.steps, self.settled) =
             (instant.step, instant.epoch, instant.steps, instant.settled);
         self.reference = None;

@@ -33,7 +33,7 @@ impl Simulation {
     pub(super) fn disturbed(&mut self) {
         self.settled = false;
         self.reference = None;
-        // Copies begin anew at the bodies, in a clone of the world as it is then.
+        // Copies begin anew at the bodies, in a clone of the world as it is then; those of a late host go on.
         self.long_frames.host = None;
     }
 

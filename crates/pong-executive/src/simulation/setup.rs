@@ -182,6 +182,7 @@ impl Simulation {
             self.system.world.clear_contact_history(object)?;
         }
         self.held = Held::default();
+        self.long_frames.begin_anew(None);
         self.disturbed();
         Ok(())
     }

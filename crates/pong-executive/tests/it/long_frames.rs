@@ -69,3 +69,21 @@ fn substeps_have_a_limit() {
     }
     assert!(limited);
 }
+
+/// A caller that takes the world, but changes nothing, keeps the impulses that are on their way.
+#[test]
+fn a_late_host_keeps_its_queue_when_the_world_is_taken() {
+    let run = |take: bool| {
+        let mut long = ball("LongFrame(delay_frames: 2)", 0.05, 0.17, 0.0, -0.3);
+        for _ in 0..20 {
+            long.step().unwrap();
+            if take {
+                long.world_mut();
+            }
+        }
+        speed(&long)
+    };
+    let (left_alone, taken) = (run(false), run(true));
+    assert!(left_alone > 0.2, "{left_alone}");
+    assert!((taken / left_alone - 1.0).abs() < 1e-9, "{taken} {left_alone}");
+}

@@ -6,11 +6,13 @@ mod rebuild;
 mod replayed_world;
 mod report;
 mod rerun;
+mod tangents;
 
 pub use compare::Difference;
 pub use options::ReplayOptions;
 pub use report::{Obstacle, ReplayReport};
 pub use rerun::{RerunFrame, rerun, world_at, world_of_log};
+pub use tangents::write_tangents;
 
 use crate::error::LogError;
 use crate::read::{Frame, Log};

@@ -10,5 +10,5 @@ pub use field::Field;
 pub use file::TableFile;
 pub use header::header;
 pub(crate) use header::write_header;
-pub use rows::{ContactRow, EnergyRow, FrameRow, Row, StateRow, WrenchRow};
+pub use rows::{ContactRow, EnergyRow, FrameRow, Row, StateRow, TangentRow, WrenchRow};
 pub use value::Value;

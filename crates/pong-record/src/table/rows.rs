@@ -201,3 +201,25 @@ row! {
         balance: f64,
     }
 }
+
+row! {
+    /// Tangent of two movable groups that touch in a frame: derivatives of their wrenches on each other, along common
+    /// axes. Rows of a matrix: force and moment of the first group, then of the second, about their origins. Columns:
+    /// translation and rotation of the first group, then of the second.
+    TangentRow in "tangents" {
+        /// Number of the frame.
+        frame: u64,
+        /// Time of the frame, s.
+        time: f64,
+        /// Index of the first group in the bodies of the log.
+        body_a: u32,
+        /// Index of the second group.
+        body_b: u32,
+        /// 1 if central differences gave the matrices.
+        by_differences: u32,
+        /// −∂W/∂x, N/m, N/rad, N, N·m/rad.
+        stiffness: [[f64; 12]; 12],
+        /// −∂W/∂v, N·s/m, N·s/rad, N·s, N·m·s/rad.
+        damping: [[f64; 12]; 12],
+    }
+}

@@ -107,3 +107,30 @@ impl<const N: usize> Value for [f64; N] {
         self.iter().fold(0.0, |largest, x| x.abs().max(largest))
     }
 }
+
+/// A matrix, row by row.
+impl<const M: usize, const N: usize> Value for [[f64; N]; M] {
+    const KIND: &'static str = "<f8";
+    const COUNT: usize = M * N;
+    const SIZE: usize = 8 * M * N;
+
+    fn put(self, out: &mut Vec<u8>) {
+        self.into_iter().for_each(|row| row.put(out));
+    }
+
+    fn get(bytes: &[u8]) -> Self {
+        std::array::from_fn(|row| Value::get(&bytes[8 * N * row..]))
+    }
+
+    fn agrees(&self, other: &Self, same: &dyn Fn(f64, f64) -> bool) -> bool {
+        self.iter().zip(other).all(|(a, b)| a.agrees(b, same))
+    }
+
+    fn words(&self) -> String {
+        format!("{self:?}")
+    }
+
+    fn magnitude(&self) -> f64 {
+        self.iter().map(Value::magnitude).fold(0.0, f64::max)
+    }
+}
