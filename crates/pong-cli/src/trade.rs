@@ -38,7 +38,7 @@ pub(crate) struct Arguments {
     /// Another duration than the scene's, s.
     #[arg(long, value_name = "SECONDS")]
     duration: Option<f64>,
-    /// Only these levers: any of step, integrator, friction, alternatives, bounds, leaves, workers.
+    /// Only these levers: any of step, integrator, friction, alternatives, bounds, leaves, workers, long_frame.
     #[arg(long, value_name = "LEVERS", value_delimiter = ',', value_parser = lever)]
     levers: Vec<Lever>,
     /// Other files for some of a log's models, as NAME:MODEL=FILE,MODEL=FILE; may be given several times. A
@@ -168,7 +168,7 @@ fn settings(arguments: &Arguments) -> Settings {
             frame_s: arguments.frame,
             halvings: arguments.halvings,
             duration_s: arguments.duration,
-            levers: if arguments.levers.is_empty() { Lever::ALL.to_vec() } else { arguments.levers.clone() },
+            levers: if arguments.levers.is_empty() { Lever::usual() } else { arguments.levers.clone() },
             leaves: arguments.leaves.clone(),
             workers: granted(&arguments.workers),
         },

@@ -24,7 +24,7 @@ pub(crate) struct Copy {
     pub displacement: Vector6<f64>,
     pub velocity: Vector6<f64>,
     /// Impulse of the contacts since the host had the velocity of the start of the frame: what was held back in earlier
-    /// frames, and that of this frame.
+    /// frames, and that of this frame. Of a body that contact does not move: that of this frame.
     pub impulse: Vector6<f64>,
     /// Impulse of friction in this frame.
     pub friction: Vector6<f64>,
@@ -132,12 +132,8 @@ fn velocity(body: &Body, start: &Vector6<f64>, gained: &Vector6<f64>, time: f64)
 }
 
 fn forces(world: &World, bodies: &[Body], copies: &[Copy]) -> Result<Vec<Vector6<f64>>, SlowError> {
-    let of = |(body, copy): (&Body, &Copy)| {
-        if !body.moves() {
-            return Ok(Vector6::zeros());
-        }
-        Ok(body.wrench_in_chart(&copy.pose, &world.wrench(body.interface)?))
-    };
+    let of =
+        |(body, copy): (&Body, &Copy)| Ok(body.wrench_in_chart(&copy.pose, &world.wrench(body.interface)?));
     bodies.iter().zip(copies).map(of).collect()
 }
 

@@ -83,8 +83,8 @@ static void warn_of_slow(contact_host *host, const mjModel *m, const pong_slow_r
              (report->warnings & PONG_SLOW_UNRESOLVED) != 0 ? "the wrench is that of one implicit step, without rebound"
                                                             : "rebounds are less accurate");
     else
-        fail(&text, "bodies did not move as semi-implicit Euler moves them (theta is %.2f, not 1), and contact may gain energy; set "
-                    "positions and velocities only together with mj_resetData()", report->theta_measured);
+        fail(&text, "bodies did not move as semi-implicit Euler moves them (theta is %.2f, not 1), and contact may gain "
+                    "energy; set positions and velocities only together with mj_resetData()", report->theta_measured);
     warn(name_of(m, host), text.text);
 }
 
@@ -375,8 +375,9 @@ size_t list_contacts(contact_host *host, const mjModel *m, mjData *d)
     read_states(host, m, d);
     restore_kinematics(m, d, saved);
     /* With copies the world has no memory of its own: its bristles are drawn relieved. */
-    if (!(host->slow.host != NULL ? evaluate_world(host, m) : compute_contacts(host, m, &past, state)) || pong_contact_count(host->at.world, &count) != PONG_STATUS_OK ||
-        !make_room(host, count))
+    if (host->slow.host != NULL ? !evaluate_world(host, m) : !compute_contacts(host, m, &past, state))
+        return 0;
+    if (pong_contact_count(host->at.world, &count) != PONG_STATUS_OK || !make_room(host, count))
         return 0;
     return pong_get_contacts(host->at.world, host->contacts, count, &count) == PONG_STATUS_OK ? count : 0;
 }

@@ -135,7 +135,7 @@ fn granted(py: Python<'_>, wanted: Vec<usize>) -> PyResult<Vec<usize>> {
 /// duration : float, optional
 ///     Duration of a run, s.
 /// levers : sequence of str, optional
-///     Levers to be tried; all without it.
+///     Levers to be tried; all but `long_frame` without it.
 /// alternatives : Mapping[str, Mapping[str, path_like]], optional
 ///     Alternatives of a log: for each name, model files by the name of the model that they replace.
 /// leaves : sequence of int, optional
@@ -197,7 +197,10 @@ pub(crate) fn trade(
             frame_s: frame,
             halvings,
             duration_s: duration,
-            levers: named("levers", levers, Lever::ALL, Lever::name)?,
+            levers: match levers {
+                None => Lever::usual(),
+                given => named("levers", given, Lever::ALL, Lever::name)?,
+            },
             leaves,
             workers: granted(py, workers)?,
         },

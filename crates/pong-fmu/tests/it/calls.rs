@@ -195,6 +195,37 @@ fn saved_states_go_on_to_the_same_bits_in_both_kinds() {
     }
 }
 
+/// A scene with long frames is a slow host for an importer that calls at 50 Hz: its copies are in the saved state.
+#[test]
+fn long_frames_are_those_of_the_executive_and_are_saved() {
+    let folder = scratch("long_frames");
+    let scene = write_scene(&folder, "");
+    let text = std::fs::read_to_string(&scene).unwrap();
+    let text = text.replace("RungeKutta4, step: 1e-4", "LongFrame(substeps_max: 500), step: 0.02");
+    std::fs::write(&scene, text).unwrap();
+    let unit = unpack(&make(&scene, Fmi::V3, &Options::default()), &folder.join("unit"));
+    let mut executive = simulation(&scene);
+    let ball = executive.bodies().next().unwrap().0;
+    let mut fmu = Importer::new(&unit, false).unwrap();
+    assert_eq!(fmu.begin(0.0), OK, "{}", fmu.last());
+    let mut middle = Vec::new();
+    for frame in 0..20_u32 {
+        if frame == 8 {
+            middle = fmu.save();
+        }
+        assert_eq!(fmu.do_step(f64::from(frame) * 0.02, 0.02), OK, "{}", fmu.last());
+        executive.step().unwrap();
+        let position = executive.pose(ball).position;
+        assert_eq!(fmu.get_vector(&format!("{BALL}.position")), <[f64; 3]>::from(position));
+        assert!(position.z > 0.09 && position.z < 0.11, "{position}");
+    }
+    let end = fmu.save();
+    let mut other = Importer::new(&unit, false).unwrap();
+    assert_eq!(other.restore(&middle), OK, "{}", other.last());
+    (8..20).for_each(|frame| assert_eq!(other.do_step(f64::from(frame) * 0.02, 0.02), OK));
+    assert_eq!(other.save(), end);
+}
+
 /// The impulse of contact in a communication step is the mean force times the step: the change of momentum
 /// less that by gravity. The wrench at an instant misses a bounce that begins and ends within the step.
 #[test]

@@ -229,3 +229,19 @@ fn a_group_frame_away_from_the_mass_centre_changes_no_wrench() {
         assert!((one.moment - (two.moment - arm.cross(&two.force))).norm() <= 1e-6 * size, "{one:?} {two:?}");
     }
 }
+
+#[test]
+fn a_prescribed_group_gets_the_reaction() {
+    let mut rig = rig(Config::default(), 0);
+    // The second ball stays out of reach.
+    rig.bodies[1].position.z = 5.0;
+    rig.bodies[0].gravity = Vec3::zeros();
+    let (mut ball, mut floor) = (Vec3::zeros(), Vec3::zeros());
+    for _ in 0..20 {
+        rig.step();
+        ball += rig.slow.wrench_common(rig.interfaces[0]).unwrap().force;
+        floor += rig.slow.wrench_common(rig.interfaces[2]).unwrap().force;
+    }
+    assert!(rig.bodies[0].velocity.z > 0.0 && ball.norm() > 1.0);
+    assert!((ball + floor).norm() < 1e-9 * ball.norm(), "{ball} {floor}");
+}

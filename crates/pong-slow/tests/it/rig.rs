@@ -157,13 +157,13 @@ impl Rig {
         report
     }
 
-    /// A frame with the wrenches of the engine at the present states, held.
-    pub fn step_plainly(&mut self) {
-        let states: Vec<_> =
-            self.interfaces.iter().zip(&self.bodies).map(|(id, body)| (*id, body.state())).collect();
-        self.slow.evaluate_states(&states).unwrap();
-        self.slow.commit().unwrap();
-        let wrench = |interface: &InterfaceId| self.slow.wrench_common(*interface).unwrap();
+    /// A frame with the wrenches of a world at the present states, held.
+    pub fn step_plainly(&mut self, world: &mut World) {
+        for (interface, body) in self.interfaces.iter().zip(&self.bodies) {
+            world.set_state(*interface, &body.state()).unwrap();
+        }
+        world.step().unwrap();
+        let wrench = |interface: &InterfaceId| world.wrench_common(*interface).unwrap();
         let held: Vec<_> = self.interfaces.iter().map(|id| (wrench(id).force, wrench(id).moment)).collect();
         self.hold(&held);
     }

@@ -51,11 +51,18 @@ pub enum Lever {
     Leaves,
     /// Workers.
     Workers,
+    /// Long frames, whose contacts follow copies of the bodies, at every step; only on request.
+    LongFrame,
 }
 
 impl Lever {
     /// All levers.
     pub const ALL: &'static [Self] = Self::VARIANTS;
+
+    /// Levers of a study that names none: all but the one that is run on request.
+    pub fn usual() -> Vec<Self> {
+        Self::ALL.iter().copied().filter(|lever| *lever != Self::LongFrame).collect()
+    }
 
     /// Its name in tables and on the command line.
     pub fn name(self) -> &'static str {
@@ -82,9 +89,14 @@ impl Level {
         }
     }
 
-    /// Number of engine calls in a step.
+    /// Number of engine calls in a step; of a long frame, the least.
     pub fn calls_per_step(&self) -> u32 {
-        if self.motion == Motion::Integrated(Integrator::RungeKutta4) { 4 } else { 1 }
+        match self.motion {
+            Motion::Integrated(Integrator::RungeKutta4) => 4,
+            // Eight substeps, the start, and the implicit step.
+            Motion::Integrated(Integrator::LongFrame { .. }) => 12,
+            Motion::Integrated(_) | Motion::Logged(_) => 1,
+        }
     }
 
     /// Number of engine calls in a frame.

@@ -14,6 +14,9 @@ const GRID_ROWS: u64 = 400_000;
 /// Most steps of a frame.
 const STEPS_MAX: f64 = 1e6;
 
+/// Long frames as a level.
+const LONG_FRAME: Integrator = Integrator::LongFrame { substeps_max: 20_000, delay_frames: 0 };
+
 /// The plan of a study.
 #[derive(Clone, Debug)]
 pub struct Plan {
@@ -50,7 +53,7 @@ impl Default for PlanSettings {
             frame_s: None,
             halvings: None,
             duration_s: None,
-            levers: Lever::ALL.to_vec(),
+            levers: Lever::usual(),
             leaves: vec![8, 32, 128],
             workers: vec![1],
         }
@@ -86,7 +89,10 @@ impl Plan {
         let finest = finest as u32;
         let pulls = |lever| settings.levers.contains(&lever);
         let steps = if pulls(Lever::Step) { halvings(finest) } else { vec![(own as u32).min(finest)] };
-        let integrators = integrators(scene.integrator(), pulls(Lever::Integrator));
+        let mut integrators = integrators(scene.integrator(), pulls(Lever::Integrator));
+        if pulls(Lever::LongFrame) && !integrators.contains(&LONG_FRAME) {
+            integrators.push(LONG_FRAME);
+        }
         let grid: Vec<Level> = integrators
             .iter()
             .flat_map(|integrator| {

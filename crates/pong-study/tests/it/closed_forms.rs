@@ -1,7 +1,7 @@
 //! Errors of a study against errors computed independently.
 
 use crate::common::{GRAVITY, RADIUS, STIFFNESS, ball_scene, row, run, settings};
-use pong_study::sweep::{Quantity, Settings};
+use pong_study::sweep::{Lever, Quantity, Settings};
 
 /// Depth less the depth at rest, and its rate.
 type State = [f64; 2];
@@ -155,4 +155,20 @@ fn an_alternative_has_the_errors_of_its_model() {
     assert!((found / known - 1.0).abs() < 1e-3, "{found} is not {known}");
     let rigid = row(&study, "RK4, 100 µs, no friction").answer.errors().unwrap();
     assert_eq!(rigid, row(&study, "RK4, 100 µs").answer.errors().unwrap(), "nothing rubs here");
+}
+
+/// A bounce of 10 ms in frames of 20 ms: the impulse of a long frame is right, that of a held wrench is not.
+#[test]
+fn long_frames_are_levels_on_request() {
+    let scene = ball_scene("long_frames", (RADIUS + 0.0125, -0.5), (1e-4, 0.08), "");
+    let mut settings = settings(0.02, 2);
+    settings.plan.levers = vec![Lever::Step, Lever::Integrator, Lever::LongFrame];
+    let study = run(&scene, &settings);
+    let error = |name: &str| row(&study, name).answer.errors().map(|errors| errors.of(Quantity::Impulse));
+    for step in ["20 ms", "10 ms", "5 ms"] {
+        let long = error(&format!("long, {step}")).unwrap();
+        assert!(long < 0.1, "{step}: {long}");
+    }
+    assert!(error("Euler, 20 ms").is_none_or(|error| error > 0.5));
+    assert!(!Lever::usual().contains(&Lever::LongFrame));
 }

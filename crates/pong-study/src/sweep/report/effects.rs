@@ -1,8 +1,9 @@
 //! Effects of single levers: levels that differ from one level in one lever.
 
 use super::numbers::{digits, percent};
-use crate::sweep::level::Lever;
+use crate::sweep::level::{Level, Lever, Motion};
 use crate::sweep::study::{Place, Row, Study};
+use pong_executive::Integrator;
 use pong_report::table;
 
 /// A table for the scene as written, and one for the level that is cheapest by calls within the tolerance.
@@ -46,6 +47,7 @@ fn differs(study: &Study, anchor: usize, row: &Row) -> Option<Lever> {
             let integrator = row.level.motion != base.motion;
             match (step, integrator) {
                 (true, false) => Some(Lever::Step),
+                (false, true) if is_long(&row.level) != is_long(base) => Some(Lever::LongFrame),
                 (false, true) => Some(Lever::Integrator),
                 _ => None,
             }
@@ -53,10 +55,14 @@ fn differs(study: &Study, anchor: usize, row: &Row) -> Option<Lever> {
     }
 }
 
+fn is_long(level: &Level) -> bool {
+    matches!(level.motion, Motion::Integrated(Integrator::LongFrame { .. }))
+}
+
 fn line(study: &Study, base: &Row, lever: Lever, row: &Row) -> Vec<String> {
     let to = match lever {
         Lever::Step => row.level.step_name(study.plan.frames.frame_s),
-        Lever::Integrator => crate::sweep::level::motion_name(row.level.motion),
+        Lever::Integrator | Lever::LongFrame => crate::sweep::level::motion_name(row.level.motion),
         _ => row.level.settings().into_iter().map(|(_, name)| name).collect::<Vec<_>>().join(", "),
     };
     let time = match (&row.times, &base.times) {
