@@ -120,7 +120,7 @@ fn stiffness_and_damping_of_a_bouncing_ball_are_found_from_its_closed_form() {
     }
     assert!((0.9..1.3).contains(&fit.test[1].weighted), "{:?}", fit.test);
     assert!(fit.test[0].weighted > 3.0 * fit.test[1].weighted, "the scene's own values are worse: {fit:#?}");
-    let only = "turn enough to check the order of the quaternion";
+    let only = "exclude another reading of its orientations";
     assert!(fit.converged && fit.notes.iter().all(|note| note.contains(only)), "{:?}", fit.notes);
 }
 
