@@ -149,6 +149,15 @@ static void drop_rounding(mjtNum A[36])
                 A[6 * i + k] = A[6 * k + i] = 0;
 }
 
+/* x = L^-1 b for the lower triangle L of a factored matrix. The product of two such x is that with the inverse matrix, without
+ * a negative eigenvalue by rounding. */
+static void solve_half(mjtNum *x, const mjtNum *factored, const mjtNum *b, int n)
+{
+    int i;
+    for (i = 0; i < n; i++)
+        x[i] = (b[i] - mju_dot(factored + i * n, x, i)) / factored[i * n + i];
+}
+
 /* Mobility of a body in its frame: J M^-1 J^T with the effective inertia. Returns 0 if it does not move. */
 static int read_mobility(mjtNum A[36], const slow_copies *copies, const mjModel *m, int body)
 {
@@ -159,8 +168,8 @@ static int read_mobility(mjtNum A[36], const slow_copies *copies, const mjModel 
     int i, k;
     mj_jac(m, d, jacobian, jacobian + 3 * dofs, d->xpos + 3 * body, body);
     for (i = 0; i < 6; i++)
-        mju_cholSolve(solved + i * dofs, copies->inertia, jacobian + i * dofs, dofs);
-    mju_mulMatMatT(common, jacobian, solved, 6, dofs, 6);
+        solve_half(solved + i * dofs, copies->inertia, jacobian + i * dofs, dofs);
+    mju_mulMatMatT(common, solved, solved, 6, dofs, 6);
     /* Components along the axes of the body: turn = diag(R^T, R^T). */
     mju_zero(turn, 36);
     for (i = 0; i < 3; i++)
