@@ -102,8 +102,7 @@ const char *pong_last_message(void);
 /* ---- Version --------------------------------------------------------------------------------------------- */
 
 /// Hash of every layout in this header; see PONG_CHECK_ABI().
-#define PONG_LAYOUT_HASH 0xb674c13679bb7705ULL
-#define PONG_LAYOUT_HASH 0x8da6c5782d2fcd2fULL
+#define PONG_LAYOUT_HASH 0xf39827e9238b1f23ULL
 
 /// Checks that this header fits the library: call it first.
 #define PONG_CHECK_ABI() pong_check_abi(PONG_ABI_VERSION, PONG_LAYOUT_HASH)
@@ -838,6 +837,63 @@ pong_status pong_get_contact_tangents(const struct pong_world *world,
                                       struct pong_contact_tangent *tangents,
                                       size_t capacity,
                                       size_t *count);
+
+/// Incremental potential of the contacts of two movable groups.
+typedef struct pong_potential {
+    /// The two movable groups, in the order of pong_contact_change.
+    struct pong_interface_id interfaces[2];
+    /// Energy that the contacts add, J.
+    double energy;
+    /// Minus its derivatives by the poses of both groups: force, N, and moment about the group's origin, N m, along common
+    /// axes.
+    struct pong_wrench wrenches[2];
+    /// Its second derivatives without the turning of normals and levers: `stiffness[i][j]` as in pong_tangent. The whole is
+    /// symmetric and has no negative eigenvalue while no damper pulls.
+    double stiffness[2][2][36];
+} pong_potential;
+
+/// Derivatives of the wrenches that two movable groups put on each other, by a number of a surface.
+typedef struct pong_surface_slope {
+    /// The two movable groups, in the order of pong_contact_change.
+    struct pong_interface_id interfaces[2];
+    /// Derivatives of the wrenches on both, N and N m over the unit of the number, about the group's origin, along common
+    /// axes.
+    struct pong_wrench wrenches[2];
+} pong_surface_slope;
+
+/// Copies the incremental potential of a step of length `step`, s, for every two movable groups that touch, always in the
+/// same order: the first `capacity`; `count` gets their number. A host that finds the end of its step as the minimum of an
+/// energy sets poses, evaluates, adds these energies, wrenches and second derivatives to its own, and commits the end that
+/// it has found. The step starts at the last commit. The wrenches are not those of pong_get_wrenches(): the limit of
+/// friction follows the load at the start, and damping the depth gained in the step over its length. See docs/theory.md, 7.
+/// Allocates.
+///
+/// PONG_STATUS_WRONG_PHASE: call it between pong_evaluate() and the commit. PONG_STATUS_BAD_VALUE: `step` is not positive
+/// and finite, or a contact is of two solids, has a law of the host or a resistance to rolling or spinning, or no unique
+/// derivative. PONG_STATUS_BUFFER_TOO_SMALL if not all fit; `group_pairs` of the seal report is always enough. With capacity
+/// 0 `potentials` may be NULL.
+pong_status pong_get_incremental_potentials(const struct pong_world *world,
+                                            double step,
+                                            struct pong_potential *potentials,
+                                            size_t capacity,
+                                            size_t *count);
+
+/// Copies the derivatives of the wrenches of the last frame by a number of a surface of a model, for every two movable
+/// groups that touch, always in the same order: the first `capacity`; `count` gets their number. `number` is named as in
+/// the model format: "stiffness", "normal.damping", "friction.mu" and so on. Poses and contact state are held. By
+/// differences: two evaluations, three for a number that is zero. Surface and frame are those of before. Allocates.
+///
+/// PONG_STATUS_WRONG_PHASE: call it between pong_evaluate() and the commit. PONG_STATUS_UNKNOWN_NAME: the model has no such
+/// surface, or the surface does not give the number. Otherwise errors as for pong_evaluate(); after PONG_STATUS_LAW_FAILED
+/// the frame does not count. PONG_STATUS_BUFFER_TOO_SMALL if not all fit; `group_pairs` of the seal report is always
+/// enough. With capacity 0 `slopes` may be NULL.
+pong_status pong_get_surface_slopes(struct pong_world *world,
+                                    struct pong_model_id model,
+                                    const char *surface,
+                                    const char *number,
+                                    struct pong_surface_slope *slopes,
+                                    size_t capacity,
+                                    size_t *count);
 
 /* ---- Results: distance ----------------------------------------------------------------------------------- */
 

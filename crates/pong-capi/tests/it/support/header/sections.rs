@@ -43,7 +43,7 @@ pub const SECTIONS: &[Section] = &[
     },
     Section { heading: "Results: wrenches", about: &[], items: &["wrenches"] },
     Section { heading: "Results: contacts", about: &[], items: &["contacts", "step_plan::pong_check_step"] },
-    Section { heading: "Results: tangents", about: &[], items: &["tangents"] },
+    Section { heading: "Results: tangents", about: &[], items: &["tangents", "slopes"] },
     Section { heading: "Results: distance", about: &[], items: &["distance"] },
     Section { heading: "Results: begin, end and peaks of contact", about: &[], items: &["pair_monitor"] },
     Section {
