@@ -12,7 +12,7 @@ fn a_scene_becomes_an_fmu() {
     let (code, out, err) = pong(&folder, &["fmu", SCENE, "-o", "tripod.fmu", "--fmi", "2"]);
     assert_eq!((code, err.as_str()), (0, ""));
     assert!(out.starts_with("tripod.fmu: `tripod`, FMI 2.0, Model Exchange and Co-Simulation, "), "{out}");
-    assert!(out.contains("6 inputs, 43 outputs, 16 parameters, 13 continuous states"), "{out}");
+    assert!(out.contains("6 inputs, 44 outputs, 16 parameters, 13 continuous states"), "{out}");
     assert!(std::fs::read(folder.join("tripod.fmu")).unwrap().starts_with(b"PK\x03\x04"));
     let (code, out, _) = pong(&folder, &["fmu", SCENE, "-o", "tripod.fmu", "--contact-only"]);
     assert_eq!(code, 0);
