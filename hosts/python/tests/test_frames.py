@@ -439,7 +439,7 @@ def test_tangents():
     (potential,) = made.incremental_potentials(1e6)
     assert (potential.interface_a, potential.interface_b) == (slope.interface_a, slope.interface_b) == (0, 1)
     np.testing.assert_allclose(potential.energy, 0.5 * STIFFNESS * 1e-6, rtol=1e-7)
-    np.testing.assert_allclose(potential.wrenches[:, 2], [STIFFNESS * 1e-3, -STIFFNESS * 1e-3], rtol=1e-9)
+    np.testing.assert_allclose(potential.wrenches[:, 2], [STIFFNESS * 1e-3, -STIFFNESS * 1e-3], rtol=1e-8)
     np.testing.assert_allclose(potential.stiffness, potential.stiffness.transpose(1, 0, 3, 2), rtol=1e-12)
     np.testing.assert_array_equal(made.wrenches(), before)
     made.commit()

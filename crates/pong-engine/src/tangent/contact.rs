@@ -197,7 +197,7 @@ impl Moving<'_> {
 
 /// Motion of a contact since the last commit, and its derivatives with respect to (u, φ).
 pub(super) struct Travel {
-    /// Depth gained, m.
+    /// Depth gained, m; infinite without a committed pose, where every contact begins.
     pub approach: f64,
     pub approach_slopes: RowVector6<f64>,
     /// Slip in the contact plane, m; of a contact that begins, since its first touch.
@@ -209,7 +209,7 @@ impl Travel {
     /// No motion: the pair has no committed pose.
     fn none() -> Self {
         Self {
-            approach: 0.0,
+            approach: f64::INFINITY,
             approach_slopes: RowVector6::zeros(),
             across_b: Vec3::zeros(),
             across_slopes: Matrix3x6::zeros(),

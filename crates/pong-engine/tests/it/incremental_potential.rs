@@ -43,6 +43,10 @@ fn a_point_on_a_floor_has_the_closed_form() {
             "{end}: {found:?} {energy}"
         );
     }
+    // Without a committed pose the contact begins: d₀ = 0.
+    rig.world.clear_contact_history(rig.objects[0]).unwrap();
+    let found = potential(&mut rig, depth(start), step);
+    assert!((found.wrenches[0].force.z - (stiffness + over) * start).abs() < 1e-9 * K * start, "{found:?}");
 }
 
 /// A step of the host: the end that minimises ½m·|x − x*|²/T² + Φ(x), by Newton's method on a translation. A step that
