@@ -9,6 +9,9 @@ use crate::tangent::TangentMatrix;
 use nalgebra::{Matrix6, RowVector6, SMatrix, Vector6};
 use pong_geometry::{Mat3, Vec3, Wrench};
 
+/// Length, m, whose inverse times a force is finite.
+const SHORT_M: f64 = 1e-120;
+
 /// Incremental potential of the contacts of two movable groups in the last frame: the energy Φ that they add, as a
 /// function of the poses at the end of a step of a given length, with the contact state of its start.
 ///
@@ -82,15 +85,16 @@ impl Increment {
         };
         let (spring, length) = (stiffness * share, stretch.norm());
         let in_plane = Mat3::identity() - normal * normal.transpose();
+        // Stretch at the limit, of a finite length for a bristle without stiffness as well.
+        let yielding = limit / spring.max(limit * SHORT_M).max(f64::MIN_POSITIVE);
         let (energy, force, hessian) = if spring * length <= limit {
             (0.5 * spring * length * length, stretch * spring, in_plane * spring)
         } else {
             let along = stretch / length.max(f64::MIN_POSITIVE);
-            let round = (in_plane - along * along.transpose()) * (limit / length.max(f64::MIN_POSITIVE));
-            let yielding = limit / spring.max(f64::MIN_POSITIVE);
+            let round = (in_plane - along * along.transpose()) * (limit / length.max(SHORT_M));
             (limit * (length - 0.5 * yielding), along * limit, round)
         };
-        let held = length.min(limit / spring.max(f64::MIN_POSITIVE));
+        let held = length.min(yielding);
         self.energy += energy;
         self.slope += force.transpose() * of_stretch + of_share * (0.5 * stiffness * held * held);
         self.curvature += of_stretch.transpose() * hessian * of_stretch;
