@@ -1,6 +1,6 @@
 //! Incremental potential of a step (docs/theory.md, 7): its wrenches against central differences of its energy.
 
-use super::tangent::{branches, moved, scale};
+use super::tangent::{branches, moved, over_frames, scale};
 use crate::base::Base;
 use crate::judge::Verdict;
 use crate::play::{Answer, Stage};
@@ -16,34 +16,15 @@ const STEP_S: f64 = 0.01;
 
 /// Checks the potentials of all frames whose energies are smooth around their states.
 pub fn of_differences(base: &mut Base, _: &mut Random) -> Verdict {
-    let scene = base.scene.clone();
-    if base.stage.forget().is_err() {
-        return Verdict::DoesNotApply;
-    }
-    let mut compared = false;
-    for (frame, states) in scene.frames.iter().enumerate() {
-        if base.stage.move_surfaces(frame).is_err() {
-            return Verdict::DoesNotApply;
-        }
-        let Ok(answer) = base.stage.evaluate(states) else { return Verdict::DoesNotApply };
-        match base.stage.world.incremental_potentials(STEP_S) {
-            Err(EngineError::BadValue { .. }) => {}
-            Err(error) => return Verdict::differs(frame, 1.0, error.to_string()),
-            Ok(potentials) => {
-                let exact = slopes_of(&potentials, &base.stage, scene.size);
-                if let Some(differences) = by_differences(&mut base.stage, &scene, states, &answer) {
-                    compared = true;
-                    if let Some((relative, says)) = compare(&exact, &differences) {
-                        return Verdict::differs(frame, relative, says);
-                    }
-                }
-            }
-        }
-        if base.stage.step(states).is_err() {
-            return Verdict::DoesNotApply;
-        }
-    }
-    if compared { Verdict::Agrees } else { Verdict::DoesNotApply }
+    over_frames(base, |stage, scene, states, answer| {
+        let potentials = match stage.world.incremental_potentials(STEP_S) {
+            Err(EngineError::BadValue { .. }) => return Ok(false),
+            potentials => potentials.map_err(|error| (1.0, error.to_string()))?,
+        };
+        let exact = slopes_of(&potentials, stage, scene.size);
+        let Some(differences) = by_differences(stage, scene, states, answer) else { return Ok(false) };
+        compare(&exact, &differences).map_or(Ok(true), Err)
+    })
 }
 
 /// Derivatives of the energy by a translation, or a rotation times the size, of A and of B.

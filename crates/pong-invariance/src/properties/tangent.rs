@@ -23,6 +23,33 @@ type Table = [[f64; COLUMNS]; 12];
 
 /// Checks the tangents of all frames whose wrenches are smooth around their states.
 pub fn of_differences(base: &mut Base, _: &mut Random) -> Verdict {
+    over_frames(base, |stage, scene, states, answer| {
+        let tangents = match stage.world.tangents() {
+            Err(EngineError::BadValue { .. }) => return Ok(false),
+            tangents => tangents.map_err(|error| (1.0, error.to_string()))?,
+        };
+        let mut compared = false;
+        for (is_twist, what) in [(false, "stiffness"), (true, "damping")] {
+            let exact = table_of(&tangents, (is_twist, stage), scene.size);
+            let Some(differences) = by_differences(stage, scene, states, (is_twist, answer)) else {
+                continue;
+            };
+            compared = true;
+            // Entries that are zero up to rounding.
+            let least =
+                1e-9 * if is_twist { scene.damping() } else { scene.stiffness() } + 1e-15 * scene.stiffness();
+            compare(&exact, &differences, (what, least)).map_or(Ok(()), Err)?;
+        }
+        Ok(compared)
+    })
+}
+
+/// Plays a scene and checks each frame before its commit. `check` gets the stage, the scene, the states and the answer of
+/// the frame; it returns true if it compared, and the relative difference with a text if the frame differs.
+pub(super) fn over_frames(
+    base: &mut Base,
+    mut check: impl FnMut(&mut Stage, &Scene, &[State; 2], &Answer) -> Result<bool, (f64, String)>,
+) -> Verdict {
     let scene = base.scene.clone();
     if base.stage.forget().is_err() {
         return Verdict::DoesNotApply;
@@ -33,26 +60,9 @@ pub fn of_differences(base: &mut Base, _: &mut Random) -> Verdict {
             return Verdict::DoesNotApply;
         }
         let Ok(answer) = base.stage.evaluate(states) else { return Verdict::DoesNotApply };
-        match base.stage.world.tangents() {
-            Err(EngineError::BadValue { .. }) => {}
-            Err(error) => return Verdict::differs(frame, 1.0, error.to_string()),
-            Ok(tangents) => {
-                for (is_twist, what) in [(false, "stiffness"), (true, "damping")] {
-                    let exact = table_of(&tangents, (is_twist, &base.stage), scene.size);
-                    let Some(differences) =
-                        by_differences(&mut base.stage, &scene, states, (is_twist, &answer))
-                    else {
-                        continue;
-                    };
-                    compared = true;
-                    // Entries that are zero up to rounding.
-                    let least = 1e-9 * if is_twist { scene.damping() } else { scene.stiffness() }
-                        + 1e-15 * scene.stiffness();
-                    if let Some((relative, says)) = compare(&exact, &differences, (what, least)) {
-                        return Verdict::differs(frame, relative, says);
-                    }
-                }
-            }
+        match check(&mut base.stage, &scene, states, &answer) {
+            Ok(did) => compared |= did,
+            Err((relative, says)) => return Verdict::differs(frame, relative, says),
         }
         if base.stage.step(states).is_err() {
             return Verdict::DoesNotApply;
