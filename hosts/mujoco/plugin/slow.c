@@ -43,7 +43,7 @@ int is_making_scratch(void) { return making_scratch; }
 
 int open_slow(slow_copies *copies, const contact_world *w, const mjModel *m, message *why)
 {
-    const size_t dofs = (size_t)m->nv;
+    const size_t dofs = (size_t)m->nv, groups = w->group_count;
     if (w->substeps_max == 0)
         return 1;
     if (!refuse_integrator(m, why))
@@ -53,10 +53,12 @@ int open_slow(slow_copies *copies, const contact_world *w, const mjModel *m, mes
     making_scratch = 1;
     copies->scratch = mj_makeData(m);
     making_scratch = 0;
-    copies->inputs = calloc(w->group_count, sizeof *copies->inputs);
+    copies->inputs = calloc(groups, sizeof *copies->inputs);
     copies->inertia = malloc((dofs * dofs + 1) * sizeof *copies->inertia);
-    copies->columns = malloc((12 * dofs + 1) * sizeof *copies->columns);
-    if (copies->scratch == NULL || copies->inputs == NULL || copies->inertia == NULL || copies->columns == NULL)
+    copies->roots = malloc((6 * (groups + 1) * dofs + 1) * sizeof *copies->roots);
+    copies->couplings = calloc(groups * (groups + 1) / 2 + 1, sizeof *copies->couplings);
+    if (copies->scratch == NULL || copies->inputs == NULL || copies->inertia == NULL || copies->roots == NULL ||
+        copies->couplings == NULL)
         return fail(why, "no memory for the copies of the key `substeps_max`");
     return 1;
 }
@@ -68,7 +70,8 @@ void close_slow(slow_copies *copies)
         mj_deleteData(copies->scratch);
     free(copies->inputs);
     free(copies->inertia);
-    free(copies->columns);
+    free(copies->roots);
+    free(copies->couplings);
     memset(copies, 0, sizeof *copies);
 }
 
@@ -135,20 +138,6 @@ static void factor_inertia(slow_copies *copies, const mjModel *m)
 
 /* ---- the movable groups */
 
-/* Zeroes the rows and columns of directions in which joints hold the body, up to rounding. */
-static void drop_rounding(mjtNum A[36])
-{
-    mjtNum most[2] = {0, 0};
-    int i, k;
-    for (i = 0; i < 6; i++)
-        most[i / 3] = mju_max(most[i / 3], A[7 * i]);
-    for (i = 0; i < 6; i++)
-        /* Lengths of 1 m: a point 1 um from an axis does not move. */
-        if (A[7 * i] < 1e-12 * mju_max(most[0], most[1]))
-            for (k = 0; k < 6; k++)
-                A[6 * i + k] = A[6 * k + i] = 0;
-}
-
 /* x = L^-1 b for the lower triangle L of a factored matrix. The product of two such x is that with the inverse matrix, without
  * a negative eigenvalue by rounding. */
 static void solve_half(mjtNum *x, const mjtNum *factored, const mjtNum *b, int n)
@@ -158,36 +147,44 @@ static void solve_half(mjtNum *x, const mjtNum *factored, const mjtNum *b, int n
         x[i] = (b[i] - mju_dot(factored + i * n, x, i)) / factored[i * n + i];
 }
 
-/* Mobility of a body in its frame: J M^-1 J^T with the effective inertia. Returns 0 if it does not move. */
-static int read_mobility(mjtNum A[36], const slow_copies *copies, const mjModel *m, int body)
+/* Root of the mobility of a group: its Jacobian along its axes times the inverse root of the effective inertia, 6 x nv. Rows
+ * in which joints hold the body, up to rounding, are zero. Returns 0 if it does not move. */
+static int read_root(slow_copies *copies, const mjModel *m, int body, size_t group, size_t groups)
 {
     const mjData *d = copies->scratch;
     const int dofs = m->nv;
-    mjtNum *jacobian = copies->columns, *solved = copies->columns + 6 * dofs, turn[36], common[36];
-    const mjtNum *R = d->xmat + 9 * body;
-    int i, k;
+    /* The Jacobian takes the place behind the last group. */
+    mjtNum *root = copies->roots + 6 * group * dofs, *jacobian = copies->roots + 6 * groups * dofs, squares[6], most = 0;
+    int i, moves = 0;
     mj_jac(m, d, jacobian, jacobian + 3 * dofs, d->xpos + 3 * body, body);
-    for (i = 0; i < 6; i++)
-        solve_half(solved + i * dofs, copies->inertia, jacobian + i * dofs, dofs);
-    mju_mulMatMatT(common, solved, solved, 6, dofs, 6);
-    /* Components along the axes of the body: turn = diag(R^T, R^T). */
-    mju_zero(turn, 36);
-    for (i = 0; i < 3; i++)
-        for (k = 0; k < 3; k++)
-            turn[6 * i + k] = turn[6 * (i + 3) + k + 3] = R[3 * k + i];
-    {
-        mjtNum half[36], whole[36];
-        mju_mulMatMat(half, turn, common, 6, 6, 6);
-        mju_mulMatMatT(whole, half, turn, 6, 6, 6);
-        for (i = 0; i < 6; i++)
-            for (k = 0; k < 6; k++)
-                A[6 * i + k] = 0.5 * (whole[6 * i + k] + whole[6 * k + i]);
+    mju_mulMatTMat(root, d->xmat + 9 * body, jacobian, 3, 3, dofs);
+    mju_mulMatTMat(root + 3 * dofs, d->xmat + 9 * body, jacobian + 3 * dofs, 3, 3, dofs);
+    mju_copy(jacobian, root, 6 * dofs);
+    for (i = 0; i < 6; i++) {
+        solve_half(root + i * dofs, copies->inertia, jacobian + i * dofs, dofs);
+        squares[i] = mju_dot(root + i * dofs, root + i * dofs, dofs);
+        most = mju_max(most, squares[i]);
     }
-    drop_rounding(A);
     for (i = 0; i < 6; i++)
-        if (A[7 * i] > 0)
-            return 1;
-    return 0;
+        /* Lengths of 1 m: a point 1 um from an axis does not move. */
+        if (squares[i] < 1e-12 * most)
+            mju_zero(root + i * dofs, dofs);
+        else
+            moves |= squares[i] > 0;
+    return moves;
+}
+
+/* Velocity of one group per impulse on another. Returns 0 if the joints between them carry none, up to rounding. */
+static int read_mobility(mjtNum A[36], const slow_copies *copies, const mjModel *m, size_t of, size_t by)
+{
+    const int dofs = m->nv;
+    const mjtNum *first = copies->roots + 6 * of * dofs, *second = copies->roots + 6 * by * dofs;
+    int i, k, moves = 0;
+    mju_mulMatMatT(A, first, second, 6, dofs, 6);
+    for (i = 0; i < 6; i++)
+        for (k = 0; k < 6; k++)
+            moves |= fabs(A[6 * i + k]) > 1e-12 * mju_norm(first + i * dofs, dofs) * mju_norm(second + k * dofs, dofs);
+    return moves;
 }
 
 /* Returns true for a rigid body of its own on a free joint that no constraint touches. */
@@ -222,9 +219,11 @@ static void move_acceleration(pong_slow_input *input, const mjData *d, int body)
     mju_addTo3(input->linear_acceleration, part);
 }
 
-static void read_input(pong_slow_input *input, const slow_copies *copies, const mjModel *m, int body)
+static void read_input(slow_copies *copies, const contact_world *w, const mjModel *m, size_t group)
 {
     const mjData *d = copies->scratch;
+    pong_slow_input *input = &copies->inputs[group];
+    const int body = w->bodies[group];
     input->mass = mass_of(m, body);
     read_acceleration(input, m, d, body);
     if (isinf(input->mass.mass)) {
@@ -232,21 +231,44 @@ static void read_input(pong_slow_input *input, const slow_copies *copies, const 
     } else if (is_free_body(m, d, body, &input->mass)) {
         input->dynamics = PONG_DYNAMICS_FREE;
         move_acceleration(input, d, body);
+    } else if (read_root(copies, m, body, group, w->group_count)) {
+        input->dynamics = PONG_DYNAMICS_JOINTED;
+        read_mobility(input->mobility, copies, m, group, group);
     } else {
-        input->dynamics = read_mobility(input->mobility, copies, m, body) ? PONG_DYNAMICS_JOINTED : PONG_DYNAMICS_PRESCRIBED;
+        input->dynamics = PONG_DYNAMICS_PRESCRIBED;
     }
+}
+
+/* Number of couplings of groups that joints connect. */
+static size_t read_couplings(slow_copies *copies, const contact_world *w, const mjModel *m)
+{
+    size_t of, by, count = 0;
+    for (of = 0; of < w->group_count; of++)
+        for (by = of + 1; by < w->group_count; by++) {
+            pong_slow_coupling *next = &copies->couplings[count];
+            if (copies->inputs[of].dynamics != PONG_DYNAMICS_JOINTED || copies->inputs[by].dynamics != PONG_DYNAMICS_JOINTED)
+                continue;
+            next->of = w->interfaces[of];
+            next->by = w->interfaces[by];
+            count += read_mobility(next->mobility, copies, m, of, by) != 0;
+        }
+    return count;
 }
 
 pong_status evaluate_slow(slow_copies *copies, const contact_world *w, const mjModel *m, const mjData *d,
                           const pong_state *states)
 {
+    pong_status status;
     size_t i;
     step_without_contact(copies->scratch, m, d);
     factor_inertia(copies, m);
     for (i = 0; i < w->group_count; i++) {
         copies->inputs[i].interface = w->interfaces[i];
         copies->inputs[i].state = states[i];
-        read_input(&copies->inputs[i], copies, m, w->bodies[i]);
+        read_input(copies, w, m, i);
     }
+    status = pong_set_slow_couplings(copies->host, copies->couplings, read_couplings(copies, w, m));
+    if (status != PONG_STATUS_OK)
+        return status;
     return pong_evaluate_slow(copies->host, m->opt.timestep, copies->inputs, w->group_count);
 }

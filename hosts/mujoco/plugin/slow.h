@@ -10,7 +10,8 @@ typedef struct slow_copies {
     mjData *scratch;         /* steps without contact */
     pong_slow_input *inputs; /* one for each movable group */
     mjtNum *inertia;         /* nv x nv: effective inertia of a step, factored */
-    mjtNum *columns;         /* 12 x nv */
+    mjtNum *roots;           /* 6 x nv for each group: its Jacobian times the inverse root of the inertia */
+    pong_slow_coupling *couplings; /* of groups that joints connect */
 } slow_copies;
 
 /* Refuses integrators for which the copies do not know how poses move. */
