@@ -4,8 +4,7 @@ use nalgebra::{DMatrix, DVector, Vector6};
 
 /// Pivots below this share of their diagonal element are zero: such a direction does not move.
 const PIVOT_LEAST: f64 = 1e-11;
-/// What is left of a mobility beside its pivots is below this share of its diagonal elements, or an eigenvalue is
-/// negative.
+/// Largest remainder beside the pivots, as a share of the diagonal elements, of a mobility without negative eigenvalue.
 const LEFT_MOST: f64 = 1e-9;
 
 /// A free body, or bodies that joints connect.

@@ -240,7 +240,7 @@ impl<'f> Frame<'f> {
             let guarded = guard.limit(world, impulses.to_vec())?;
             self.report.evaluations += guard.evaluations;
             self.report.status.energy_limited |= guarded.limited;
-            let copy_open = !end.iter().any(|spring| crate::guard::touches(island, spring));
+            let copy_open = !end.iter().any(|spring| island.touches(&spring.normal));
             let dropped =
                 copy_open && guarded.open && guarded.host <= guarded.copy + 1e-13 * guarded.copy.abs();
             for &body in &island.bodies {

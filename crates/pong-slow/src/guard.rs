@@ -166,7 +166,7 @@ impl Guard<'_> {
         self.evaluations += 1;
         let springs = springs_at(world, &self.system.bodies, &self.poses)?;
         let stored = stored(self.island, &springs);
-        let open = !springs.iter().any(|spring| touches(self.island, spring));
+        let open = !springs.iter().any(|spring| self.island.touches(&spring.normal));
         Ok(Energy { total: total + stored, size: size + stored, rubbed: rubbed.max(0.0), open })
     }
 
@@ -195,12 +195,7 @@ impl Guard<'_> {
     }
 }
 
-/// Returns true if a spring acts on a body of the island.
-pub(crate) fn touches(island: &Island, spring: &Spring) -> bool {
-    island.has(spring.normal.a) || island.has(spring.normal.b)
-}
-
 /// Energy of the springs that act on bodies of an island, J.
 pub(crate) fn stored(island: &Island, springs: &[Spring]) -> f64 {
-    springs.iter().filter(|spring| touches(island, spring)).map(|spring| spring.energy).sum()
+    springs.iter().filter(|spring| island.touches(&spring.normal)).map(|spring| spring.energy).sum()
 }

@@ -3,7 +3,6 @@
 
 use crate::contact_set::{Spring, springs_at};
 use crate::error::SlowError;
-use crate::guard::touches;
 use crate::island::Island;
 use crate::system::System;
 use nalgebra::{DMatrix, DVector, Vector6};
@@ -77,7 +76,7 @@ impl Step<'_> {
         }
         self.evaluations += 1;
         let springs = springs_at(world, &self.system.bodies, &self.poses)?;
-        Ok(springs.into_iter().filter(|spring| touches(self.island, spring)).collect())
+        Ok(springs.into_iter().filter(|spring| self.island.touches(&spring.normal)).collect())
     }
 
     /// Gradient and stiffness in z, and the size of the terms of the gradient.

@@ -44,6 +44,11 @@ impl Island {
         self.bodies.binary_search(&body).is_ok()
     }
 
+    /// Returns true if a contact acts on a body of the island.
+    pub fn touches(&self, row: &Row) -> bool {
+        self.has(row.a) || self.has(row.b)
+    }
+
     /// Number of coordinates z.
     pub fn size(&self) -> usize {
         self.size
