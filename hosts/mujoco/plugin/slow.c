@@ -6,6 +6,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Rounds in which the wrenches of a step are found, and the error of the accelerations at which they end, as a share of those
+ * by contact. */
+#define ROUNDS_MAX 8
+#define ERROR_MAX 1e-4
+
 /* ---- making and deleting */
 
 int refuse_integrator(const mjModel *m, message *why)
@@ -57,8 +62,13 @@ int open_slow(slow_copies *copies, const contact_world *w, const mjModel *m, mes
     copies->inertia = malloc((dofs * dofs + 1) * sizeof *copies->inertia);
     copies->roots = malloc((6 * (groups + 1) * dofs + 1) * sizeof *copies->roots);
     copies->couplings = calloc(groups * (groups + 1) / 2 + 1, sizeof *copies->couplings);
+    copies->wrenches = calloc(groups, sizeof *copies->wrenches);
+    copies->pushes = malloc((2 * dofs + 1) * sizeof *copies->pushes);
+    copies->rounds = calloc(4 * dofs + 1, sizeof *copies->rounds);
+    copies->springs = malloc((3 * dofs * dofs + 1) * sizeof *copies->springs);
     if (copies->scratch == NULL || copies->inputs == NULL || copies->inertia == NULL || copies->roots == NULL ||
-        copies->couplings == NULL)
+        copies->couplings == NULL || copies->wrenches == NULL || copies->pushes == NULL ||
+        copies->springs == NULL || copies->rounds == NULL)
         return fail(why, "no memory for the copies of the key `substeps_max`");
     return 1;
 }
@@ -72,23 +82,40 @@ void close_slow(slow_copies *copies)
     free(copies->inertia);
     free(copies->roots);
     free(copies->couplings);
+    free(copies->wrenches);
+    free(copies->pushes);
+    free(copies->springs);
+    free(copies->rounds);
     memset(copies, 0, sizeof *copies);
 }
 
-/* ---- one step without contact */
+/* ---- one step with given wrenches of contact */
 
-/* Steps the scratch data, and gives them the mean acceleration of the step at the state of its beginning. */
-static void step_without_contact(mjData *scratch, const mjModel *m, const mjData *d)
+/* Generalised force of the wrenches on the groups, with the kinematics of the scratch data. */
+static void read_pushes(slow_copies *copies, const contact_world *w, const mjModel *m)
 {
+    const mjData *d = copies->scratch;
+    size_t i;
+    mju_zero(copies->pushes, m->nv);
+    for (i = 0; i < w->group_count; i++) {
+        const pong_wrench *wrench = &copies->wrenches[i];
+        mj_applyFT(m, copies->scratch, wrench->force, wrench->moment, d->xpos + 3 * w->bodies[i], w->bodies[i], copies->pushes);
+    }
+}
+
+/* Steps the scratch data with the pushes, and gives them the mean acceleration of the step at the state of its beginning. */
+static void step_with_pushes(slow_copies *copies, const mjModel *m, const mjData *d)
+{
+    mjData *scratch = copies->scratch;
     int i;
     mj_copyState(m, d, scratch, mjSTATE_INTEGRATION);
+    mju_addTo(scratch->qfrc_applied, copies->pushes, m->nv);
     mj_step(m, scratch);
     for (i = 0; i < m->nv; i++)
         scratch->qacc[i] = (scratch->qvel[i] - d->qvel[i]) / m->opt.timestep;
     /* Positions and velocities of the beginning; kinematics, inertia and constraints still are. */
     mju_copy(scratch->qpos, d->qpos, m->nq);
     mju_copy(scratch->qvel, d->qvel, m->nv);
-    mj_rnePostConstraint(m, scratch);
 }
 
 /* Adds the inertia of a row of the constraint Jacobian with this weight. */
@@ -122,18 +149,73 @@ static void add_damping(mjtNum *inertia, const mjModel *m, const mjData *d)
         }
 }
 
-/* Effective inertia of a step: an impulse changes the velocity by its inverse. The constraints that act count as springs
- * between bodies, as MuJoCo solves them. */
+/* Effective inertia of a step: an impulse changes the velocity by its inverse. With the inertia M, the damping of a step B and
+ * the constraints that act as springs of inertia K, MuJoCo solves the constraints with M and then integrates with M + B, so
+ * that the velocity is (M + B)^-1 M (M + K)^-1 times the impulse. The symmetric part of the inverse of that is taken. */
 static void factor_inertia(slow_copies *copies, const mjModel *m)
 {
-    const mjData *d = copies->scratch;
-    int row;
-    mj_fullM(m, d, copies->inertia);
+    mjData *d = copies->scratch;
+    const int dofs = m->nv, size = dofs * dofs;
+    mjtNum *springs = copies->springs, *damping = springs + size, *product = damping + size;
+    int row, i, k;
+    mju_zero(springs, 2 * size);
     for (row = 0; row < d->nefc; row++)
         if (d->efc_state[row] == mjCNSTRSTATE_QUADRATIC)
-            add_row(copies->inertia, m, d, row, d->efc_D[row]);
-    add_damping(copies->inertia, m, d);
-    mju_cholFactor(copies->inertia, m->nv, mjMINVAL);
+            add_row(springs, m, d, row, d->efc_D[row]);
+    add_damping(damping, m, d);
+    mj_solveM(m, d, product, springs, dofs);
+    mju_mulMatMatT(copies->inertia, damping, product, dofs, dofs, dofs);
+    mju_copy(product, copies->inertia, size);
+    mj_fullM(m, d, copies->inertia);
+    mju_addTo(copies->inertia, springs, size);
+    mju_addTo(copies->inertia, damping, size);
+    mju_copy(springs, copies->inertia, size);
+    for (i = 0; i < dofs; i++)
+        for (k = 0; k < dofs; k++)
+            copies->inertia[i * dofs + k] += 0.5 * (product[i * dofs + k] + product[k * dofs + i]);
+    /* The product of two that do not commute may have a negative eigenvalue. */
+    if (mju_cholFactor(copies->inertia, dofs, mjMINVAL) < dofs) {
+        mju_copy(copies->inertia, springs, size);
+        mju_cholFactor(copies->inertia, dofs, mjMINVAL);
+    }
+}
+
+/* Error of the acceleration without contact that the last round assumed: what the scratch data did beside the pushes, less what
+ * was assumed. Returns true if it is small beside the acceleration by contact. */
+static int read_error(slow_copies *copies, const mjModel *m)
+{
+    mjtNum *by_pushes = copies->pushes + m->nv, *assumed = copies->rounds, *error = assumed + m->nv;
+    mjtNum most = 0, off = 0;
+    int i;
+    mju_cholSolve(by_pushes, copies->inertia, copies->pushes, m->nv);
+    for (i = 0; i < m->nv; i++) {
+        error[i] = copies->scratch->qacc[i] - by_pushes[i] - assumed[i];
+        most = mju_max(most, fabs(by_pushes[i]));
+        off = mju_max(off, fabs(error[i]));
+    }
+    return off <= ERROR_MAX * most;
+}
+
+/* Acceleration without contact to assume next. From the second round on the error is carried to zero along the line through the
+ * last two rounds (Anderson's method). */
+static void correct(slow_copies *copies, const mjModel *m, int round)
+{
+    const int dofs = m->nv;
+    mjtNum *assumed = copies->rounds, *error = assumed + dofs, *before = error + dofs, *error_before = before + dofs;
+    mjtNum over = 0, square = 0, share;
+    int i;
+    for (i = 0; i < dofs && round > 1; i++) {
+        const mjtNum change = error[i] - error_before[i];
+        over += error[i] * change;
+        square += change * change;
+    }
+    share = square > 0 ? over / square : 0;
+    for (i = 0; i < dofs; i++) {
+        const mjtNum last = assumed[i] + error[i], one_before = before[i] + error_before[i];
+        before[i] = assumed[i];
+        error_before[i] = error[i];
+        assumed[i] = (1 - share) * last + share * one_before;
+    }
 }
 
 /* ---- the movable groups */
@@ -255,20 +337,45 @@ static size_t read_couplings(slow_copies *copies, const contact_world *w, const 
     return count;
 }
 
-pong_status evaluate_slow(slow_copies *copies, const contact_world *w, const mjModel *m, const mjData *d,
-                          const pong_state *states)
+/* Evaluates with what the scratch data tell. */
+static pong_status evaluate_frame(slow_copies *copies, const contact_world *w, const mjModel *m, const pong_state *states)
 {
     pong_status status;
     size_t i;
-    step_without_contact(copies->scratch, m, d);
-    factor_inertia(copies, m);
+    mju_copy(copies->scratch->qacc, copies->rounds, m->nv);
+    mj_rnePostConstraint(m, copies->scratch);
     for (i = 0; i < w->group_count; i++) {
         copies->inputs[i].interface = w->interfaces[i];
         copies->inputs[i].state = states[i];
         read_input(copies, w, m, i);
     }
     status = pong_set_slow_couplings(copies->host, copies->couplings, read_couplings(copies, w, m));
-    if (status != PONG_STATUS_OK)
-        return status;
-    return pong_evaluate_slow(copies->host, m->opt.timestep, copies->inputs, w->group_count);
+    if (status == PONG_STATUS_OK)
+        status = pong_evaluate_slow(copies->host, m->opt.timestep, copies->inputs, w->group_count);
+    if (status == PONG_STATUS_OK)
+        status = pong_get_slow_wrenches(copies->host, w->interfaces, PONG_REFERENCE_FRAME_COMMON, copies->wrenches, w->group_count);
+    return status;
+}
+
+pong_status evaluate_slow(slow_copies *copies, const contact_world *w, const mjModel *m, const mjData *d,
+                          const pong_state *states)
+{
+    pong_status status;
+    int round;
+    mju_zero(copies->pushes, m->nv);
+    step_with_pushes(copies, m, d);
+    factor_inertia(copies, m);
+    mju_copy(copies->rounds, copies->scratch->qacc, m->nv);
+    status = evaluate_frame(copies, w, m, states);
+    /* The effective inertia is not all: damping makes the answer of constraints lopsided, and a wrench may lift a joint off its
+     * limit. So the step is tried with the wrenches, until it ends where they were made for. */
+    for (round = 1; round < ROUNDS_MAX && status == PONG_STATUS_OK; round++) {
+        read_pushes(copies, w, m);
+        step_with_pushes(copies, m, d);
+        if (read_error(copies, m))
+            break;
+        correct(copies, m, round);
+        status = evaluate_frame(copies, w, m, states);
+    }
+    return status;
 }
