@@ -269,10 +269,14 @@ static int read_mobility(mjtNum A[36], const slow_copies *copies, const mjModel 
     return moves;
 }
 
-/* Returns true for a rigid body of its own on a free joint that no constraint touches. */
-static int is_free_body(const mjModel *m, const mjData *d, int body, const pong_mass *mass)
+/* Returns true for the only group of a rigid body of its own on a free joint that no constraint touches. */
+static int is_free_body(const contact_world *w, const mjModel *m, const mjData *d, size_t group, const pong_mass *mass)
 {
-    const int top = m->body_weldid[body];
+    const int top = m->body_weldid[w->bodies[group]];
+    size_t other;
+    for (other = 0; other < w->group_count; other++)
+        if (other != group && m->body_weldid[w->bodies[other]] == top)
+            return 0;
     return top > 0 && m->body_jntnum[top] == 1 && m->jnt_type[m->body_jntadr[top]] == mjJNT_FREE && d->nefc == 0 &&
            fabs(m->body_subtreemass[top] - mass->mass) <= 1e-12 * mass->mass;
 }
@@ -310,7 +314,7 @@ static void read_input(slow_copies *copies, const contact_world *w, const mjMode
     read_acceleration(input, m, d, body);
     if (isinf(input->mass.mass)) {
         input->dynamics = PONG_DYNAMICS_PRESCRIBED;
-    } else if (is_free_body(m, d, body, &input->mass)) {
+    } else if (is_free_body(w, m, d, group, &input->mass)) {
         input->dynamics = PONG_DYNAMICS_FREE;
         move_acceleration(input, d, body);
     } else if (read_root(copies, m, body, group, w->group_count)) {
