@@ -129,8 +129,8 @@ impl SlowHost {
     ///
     /// Parameters
     /// ----------
-    /// couplings : sequence of (Interface, Interface, array_like of shape (6, 6))
-    ///     The group that moves, the group that gets the impulse, and the velocity of the origin of the first, along its axes, per
+    /// couplings : sequence of tuple[Interface, Interface, array_like]
+    ///     The group that moves, the group that gets the impulse, and (6, 6) the velocity of the origin of the first, along its axes, per
     ///     impulse on the second about its origin, along the axes of the second: Jᵢ·M⁻¹·Jⱼᵀ. One direction is enough.
     ///
     /// Raises
