@@ -91,6 +91,12 @@ impl Frustum {
         self.axis * self.wall[0] + across * (self.wall[1] / across.norm().max(f64::MIN_POSITIVE))
     }
 
+    /// Returns the outward unit normal of the lateral surface on the side to which `side` points, a unit vector
+    /// perpendicular to the axis.
+    pub fn wall_toward(&self, side: &Vec3) -> Vec3 {
+        self.axis * self.wall[0] + side * self.wall[1]
+    }
+
     /// Returns the disc at one end: a frustum of length zero.
     pub fn disc(&self, end: usize) -> Self {
         Self {
@@ -120,8 +126,14 @@ impl Frustum {
     /// Returns the maximum of `direction · x` over the solid, m, for a unit direction.
     #[inline]
     pub fn support(&self, direction: &Vec3) -> f64 {
+        self.support_from(direction, &Vec3::zeros())
+    }
+
+    /// Returns the maximum of `direction · (x − from)` over the solid, m, for a unit direction.
+    #[inline]
+    pub fn support_from(&self, direction: &Vec3, from: &Vec3) -> f64 {
         let aside = direction.cross(&self.axis).norm();
-        let at = |end: usize| direction.dot(&self.ends[end]) + self.radii[end] * aside;
+        let at = |end: usize| direction.dot(&(self.ends[end] - from)) + self.radii[end] * aside;
         at(0).max(at(1))
     }
 }

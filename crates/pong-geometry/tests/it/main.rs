@@ -11,6 +11,7 @@ mod capsule_polyhedron;
 mod common;
 mod distance;
 mod distance_support;
+mod ellipsoid_convex;
 mod ellipsoid_plane;
 mod ellipsoid_point;
 mod ellipsoid_polyhedron;
