@@ -19,6 +19,7 @@ mod ellipsoid_prepared;
 pub mod ellipsoid_round;
 pub mod ellipsoid_triangle;
 pub mod ellipsoid_triangle_pairs;
+pub mod end_disc;
 mod highest_face;
 mod least_translation;
 pub mod line_segment_plane;

@@ -248,7 +248,10 @@ impl<'a> Seen<'a> {
 /// Axis and radius by which an element is followed through round solids, m; of an ellipsoid the centre and the smallest
 /// semi-axis.
 fn core(facts: &dyn Primitive) -> Option<([Vec3; 2], f64)> {
-    facts.core().or_else(|| Some(([facts.followed()[0]?; 2], facts.smallest_radius_m()?)))
+    facts.core().or_else(|| match facts.followed() {
+        [Some(center), None, None] => Some(([center; 2], facts.smallest_radius_m()?)),
+        _ => None,
+    })
 }
 
 /// Returns true if `holds` is true for any element of `batch` whose box overlaps the box from `low` to

@@ -4,14 +4,17 @@ use super::balls::{ball_on_piece, ball_on_triangle, emit_in_bore};
 use crate::frame::broad_phase::transformed::TransformedPrimitive;
 use crate::frame::narrow_phase::candidate::CandidateStatus;
 use crate::frame::narrow_phase::element_pair::{Ball, ChunkCandidates, ElementPair, end_spheres, wrong_kind};
+use crate::frame::narrow_phase::on_triangle::{Centre, on_triangle, thickness_for_disc};
 use pong_geometry::interference::capsule_edge::{ConvexEdge, capsule_edge};
 use pong_geometry::interference::capsule_polyhedron::CapsuleAtPiece;
+use pong_geometry::interference::ellipsoid_polyhedron::ellipsoid_piece;
+use pong_geometry::interference::end_disc::EndDisc;
 use pong_geometry::interference::line_segment_polyhedron::{AtWall, line_segment_piece};
 use pong_geometry::interference::triangle_features::{EdgeClass, TriangleView};
 use pong_geometry::interference::two_ended_bore::{capsule_bore, cylinder_bore, segment_bore};
 use pong_geometry::interference::two_ended_round::EndContacts;
 use pong_geometry::interference::{Feature, Interference};
-use pong_geometry::primitive::{Containment, Polyhedron};
+use pong_geometry::primitive::{Capsule, Containment, Frustum, Polyhedron};
 
 /// Adds the contacts of a capsule with a piece of a body: those of the end spheres, and those of the convex
 /// edges that the axis crosses between them.
@@ -40,6 +43,79 @@ pub(super) fn capsule_triangle(
     for ball in Ball::at_ends(&end_spheres(capsule)) {
         ball_on_triangle(pair, &ball, false, found);
     }
+    each_crossing_of_triangle(pair, capsule, |crossing| pair.between_ends(crossing, found));
+}
+
+/// Capsule around the axis of a cylinder: between the end discs it has the cylinder's side.
+fn side_of(cylinder: &Frustum) -> Capsule {
+    Capsule { ends: cylinder.ends, radius: cylinder.radii[0] }
+}
+
+/// Adds the contacts of a cylinder with a piece of a body: those of its end discs, and those of the convex edges
+/// that its side crosses between them.
+pub(super) fn cylinder_polyhedron(
+    pair: &ElementPair<'_>,
+    a: &TransformedPrimitive,
+    found: &mut ChunkCandidates<'_>,
+) {
+    let TransformedPrimitive::Frustum(cylinder) = a else { wrong_kind(a) };
+    let polyhedron = &pair.body_b().polyhedra[pair.item_b.element as usize];
+    let side = side_of(cylinder);
+    let Some(at_piece) = CapsuleAtPiece::new(&side, polyhedron) else { return };
+    for end in 0..2 {
+        let disc = EndDisc { frustum: cylinder, end };
+        let Some(contact) = ellipsoid_piece(&cylinder.flat_ellipsoid(end), polyhedron) else { continue };
+        let Some(lowest) = disc.exact(&contact.interference) else { continue };
+        let status = if contact.stands_in { CandidateStatus::StandIn } else { CandidateStatus::Front };
+        pair.emit(pair.key_at(end as u32), &lowest, found, |out| {
+            out.share(true);
+            out.status = status;
+        });
+        let Some(highest) = disc.highest(&lowest).filter(|_| lowest.feature.is_face()) else { continue };
+        let foot = highest.deepest_b + highest.normal_b * highest.depth;
+        let rims = polyhedron.rim(lowest.feature.index());
+        if rims.iter().all(|rim| rim.outward.dot(&(foot - rim.anchor)) <= 0.0) {
+            pair.emit(pair.key_at(end as u32 + 2), &highest, found, |out| out.share(true));
+        }
+    }
+    at_piece.each_crossing(|crossing| pair.between_discs(crossing, found));
+}
+
+/// Adds the contacts of a cylinder with a triangle: those of its end discs, and those of the convex and free edges
+/// that its side crosses.
+pub(super) fn cylinder_triangle(
+    pair: &ElementPair<'_>,
+    a: &TransformedPrimitive,
+    found: &mut ChunkCandidates<'_>,
+) {
+    let TransformedPrimitive::Frustum(cylinder) = a else { wrong_kind(a) };
+    let (set, triangle) = (&pair.body_b().triangles, pair.item_b.element);
+    let local = &pair.body_a().frusta[pair.item_a.element as usize];
+    for end in 0..2 {
+        let disc = EndDisc { frustum: cylinder, end };
+        let center = |key: usize| Centre {
+            center_a: local.ends[end],
+            center_b: cylinder.ends[end],
+            end: Some(key as u32),
+        };
+        let thickness = thickness_for_disc(pair.context, pair.item_b, &disc);
+        disc.on_triangle(set, triangle, thickness, &mut |contact| {
+            on_triangle(pair, &center(end), contact, found);
+        });
+        if let Some(highest) = disc.highest_on_triangle(set, triangle) {
+            on_triangle(pair, &center(end + 2), highest, found);
+        }
+    }
+    let side = side_of(cylinder);
+    each_crossing_of_triangle(pair, &side, |crossing| pair.between_discs(crossing, found));
+}
+
+/// Calls `visit` with the contacts of a capsule's axis with the convex and free edges of a triangle.
+fn each_crossing_of_triangle(
+    pair: &ElementPair<'_>,
+    capsule: &Capsule,
+    mut visit: impl FnMut(&Interference),
+) {
     let (set, triangle) = (&pair.body_b().triangles, pair.item_b.element);
     let may_push = set.triangles[triangle as usize].may_push;
     for k in (0..3).filter(|&k| may_push.edge(k)) {
@@ -53,7 +129,7 @@ pub(super) fn capsule_triangle(
         let ends_b = view.edge_ends(k);
         let edge = ConvexEdge { ends_b, normals_b: normals, outwards_b: None, free_outward_b, feature };
         if let Some(crossing) = capsule_edge(capsule, &edge) {
-            pair.between_ends(&crossing, found);
+            visit(&crossing);
         }
     }
 }

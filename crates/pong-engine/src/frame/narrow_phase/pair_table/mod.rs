@@ -11,7 +11,7 @@
 //!  Sphere          x         x         x          x         x       x        x       x     x
 //!  Ellipsoid                 x         x          x         x       x        x       x
 //!  Capsule                             x          x         x       x        x       x     x
-//!  Cylinder                                                 x                              x
+//!  Cylinder                            x          x         x                              x
 //!  Cone                                                     x
 //! ```
 //!
@@ -24,7 +24,8 @@ use super::element_pair::{ChunkCandidates, ElementPair, wrong_kind};
 use super::registered;
 use crate::frame::broad_phase::transformed::TransformedPrimitive;
 use axes::{
-    axis_in_bore, capsule_polyhedron, capsule_triangle, emit_halves, emit_shares, line_segment_polyhedron,
+    axis_in_bore, capsule_polyhedron, capsule_triangle, cylinder_polyhedron, cylinder_triangle, emit_halves,
+    emit_shares, line_segment_polyhedron,
 };
 use balls::{
     ball_in_bore, ball_of, ellipsoid_polyhedron, ellipsoid_triangle, emit_hit, point_polyhedron,
@@ -143,6 +144,8 @@ const ROWS: &[KindPair] = &[
     row(Capsule, Cylinder, by!(Capsule, frusta, capsule_frustum, emit_shares), 1000, 3),
     row(Capsule, Cone, by!(Capsule, frusta, capsule_frustum, emit_shares), 1000, 3),
     row(Capsule, Bore, axis_in_bore, 1000, 4),
+    row(Cylinder, Triangle, cylinder_triangle, 4000, 14),
+    row(Cylinder, Polyhedron, cylinder_polyhedron, 2000, 14),
     row(Cylinder, Plane, by!(Frustum, planes, frustum_plane, emit_halves), 50, 4),
     row(Cylinder, Bore, axis_in_bore, 3000, 4),
     row(Cone, Plane, by!(Frustum, planes, frustum_plane, emit_halves), 50, 4),
