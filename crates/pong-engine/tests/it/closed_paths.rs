@@ -197,7 +197,10 @@ fn ellipsoid_around(name: &str, part: &str) {
 
 #[test]
 fn ellipsoid_around_an_ellipsoid() {
-    ellipsoid_around("ellipsoid–ellipsoid", "Ellipsoid(name: \"b\", center: (0,0,0), semi_axes: (0.6,0.3,0.4))");
+    ellipsoid_around(
+        "ellipsoid–ellipsoid",
+        "Ellipsoid(name: \"b\", center: (0,0,0), semi_axes: (0.6,0.3,0.4))",
+    );
 }
 
 #[test]
@@ -207,7 +210,10 @@ fn ellipsoid_around_a_capsule() {
 
 #[test]
 fn ellipsoid_around_a_cylinder() {
-    ellipsoid_around("ellipsoid–cylinder", "Cylinder(name: \"b\", ends: ((-0.5,0,0),(0.5,0,0)), radius: 0.3)");
+    ellipsoid_around(
+        "ellipsoid–cylinder",
+        "Cylinder(name: \"b\", ends: ((-0.5,0,0),(0.5,0,0)), radius: 0.3)",
+    );
 }
 
 #[test]

@@ -41,6 +41,7 @@ mod round_surface;
 pub mod segment_at_walls;
 mod segment_bounds;
 mod segment_ends;
+pub mod side_edge;
 pub mod sphere_ellipsoid;
 pub mod sphere_plane;
 pub mod sphere_polyhedron;

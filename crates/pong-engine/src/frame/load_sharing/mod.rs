@@ -66,15 +66,23 @@ pub(crate) fn assign_weights(
         }
         // The front and the back of a two-sided triangle are separate surfaces with one rim: only one of them
         // keeps a contact at the rim.
-        PrimitiveKind::Capsule | PrimitiveKind::Cylinder => keep_one_side_of_rims(found, context),
+        PrimitiveKind::Capsule | PrimitiveKind::Cylinder | PrimitiveKind::Cone => {
+            keep_one_side_of_rims(found, context);
+        }
         _ => {}
     }
     match kind_a {
-        // A capsule ends in two balls, a cylinder in two discs, which touch as flat ellipsoids do.
+        // A capsule ends in two balls, a cylinder or cone in two discs, which touch as flat ellipsoids do.
         PrimitiveKind::Capsule => {
-            return share_bars(found, (PrimitiveKind::Sphere, BETWEEN_ENDS), context, shared_contacts, scratch);
+            return share_bars(
+                found,
+                (PrimitiveKind::Sphere, BETWEEN_ENDS),
+                context,
+                shared_contacts,
+                scratch,
+            );
         }
-        PrimitiveKind::Cylinder => {
+        PrimitiveKind::Cylinder | PrimitiveKind::Cone => {
             let kind = (PrimitiveKind::Ellipsoid, BETWEEN_DISCS);
             return share_bars(found, kind, context, shared_contacts, scratch);
         }
@@ -100,7 +108,7 @@ pub(crate) fn assign_weights(
     outcome
 }
 
-/// Assigns the weights of the contacts of capsules and cylinders. `found` must be in summation order. The contacts
+/// Assigns the weights of the contacts of capsules, cylinders and cones. `found` must be in summation order. The contacts
 /// of one end ball or disc with one surface share half a spring. `kind_of_end` tells how an end touches, `between` is
 /// the end in the keys of contacts between the ends.
 fn share_bars(

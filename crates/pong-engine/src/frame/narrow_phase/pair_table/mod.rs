@@ -12,7 +12,7 @@
 //!  Ellipsoid                 x         x          x         x       x        x       x
 //!  Capsule                             x          x         x       x        x       x     x
 //!  Cylinder                            x          x         x                              x
-//!  Cone                                                     x
+//!  Cone                                x          x         x
 //! ```
 //!
 //! Point–Triangle is blank on purpose: no depth can be defined.
@@ -24,8 +24,8 @@ use super::element_pair::{ChunkCandidates, ElementPair, wrong_kind};
 use super::registered;
 use crate::frame::broad_phase::transformed::TransformedPrimitive;
 use axes::{
-    axis_in_bore, capsule_polyhedron, capsule_triangle, cylinder_polyhedron, cylinder_triangle, emit_halves,
-    emit_shares, line_segment_polyhedron,
+    axis_in_bore, capsule_polyhedron, capsule_triangle, emit_halves, emit_shares, frustum_polyhedron,
+    frustum_triangle, line_segment_polyhedron,
 };
 use balls::{
     ball_in_bore, ball_of, ellipsoid_polyhedron, ellipsoid_triangle, emit_hit, point_polyhedron,
@@ -144,10 +144,12 @@ const ROWS: &[KindPair] = &[
     row(Capsule, Cylinder, by!(Capsule, frusta, capsule_frustum, emit_shares), 1000, 3),
     row(Capsule, Cone, by!(Capsule, frusta, capsule_frustum, emit_shares), 1000, 3),
     row(Capsule, Bore, axis_in_bore, 1000, 4),
-    row(Cylinder, Triangle, cylinder_triangle, 4000, 14),
-    row(Cylinder, Polyhedron, cylinder_polyhedron, 2000, 14),
+    row(Cylinder, Triangle, frustum_triangle, 4000, 14),
+    row(Cylinder, Polyhedron, frustum_polyhedron, 2000, 14),
     row(Cylinder, Plane, by!(Frustum, planes, frustum_plane, emit_halves), 50, 4),
     row(Cylinder, Bore, axis_in_bore, 3000, 4),
+    row(Cone, Triangle, frustum_triangle, 4000, 14),
+    row(Cone, Polyhedron, frustum_polyhedron, 2000, 14),
     row(Cone, Plane, by!(Frustum, planes, frustum_plane, emit_halves), 50, 4),
 ];
 
