@@ -48,7 +48,11 @@ pub(super) fn weigh(kind_a: PrimitiveKind, contacts: &mut [Moving<'_>]) -> Optio
         return Some(());
     }
     contacts.sort_by_key(|moving| moving.contact.found.key.end);
-    // The side of a cylinder on an edge shares with its discs; that has no closed form here.
+    // The side of a cylinder on an edge shares with its discs, and the plate between two cylinders with all places;
+    // that has no closed form here.
+    if matches!(kind_a, Cylinder | Cone) && matches!(kind_b, Cylinder | Cone) {
+        return None;
+    }
     if matches!(kind_a, Cylinder | Cone)
         && contacts.last().is_some_and(|moving| moving.contact.found.key.end == BETWEEN_DISCS)
     {

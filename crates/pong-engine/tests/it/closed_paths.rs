@@ -231,6 +231,24 @@ fn wheel_around_a_box() {
 }
 
 #[test]
+fn drum_around_a_roller() {
+    let wheel = model("wheel", &elastic(), WHEEL);
+    let roller =
+        model("roller", &elastic(), "Cylinder(name: \"b\", ends: ((0,-0.4,0),(0,0.1,0)), radius: 0.3)");
+    let path = (Vec3::new(0.0, 0.05, 0.53), 0.04, 0.3);
+    check_closed_paths("cylinder–cylinder", &wheel, &roller, path, Allowed::Nothing);
+}
+
+#[test]
+fn drum_around_a_cone() {
+    let wheel = model("wheel", &elastic(), WHEEL);
+    let cone =
+        model("cone", &elastic(), "Cone(name: \"b\", ends: ((-0.3,0,0),(0.4,0,0)), radii: (0.35,0.25))");
+    let path = (Vec3::new(0.0, 0.05, 0.54), 0.04, 0.3);
+    check_closed_paths("cylinder–cone", &wheel, &cone, path, Allowed::Nothing);
+}
+
+#[test]
 fn wheel_over_a_ridge_of_triangles() {
     let ridge = "TriangleMesh(name: \"m\", vertices: [(0,-1,0.2),(0,1,0.2),(-1,-1,0),(-1,1,0),(1,-1,-0.1),(1,1,0)], \
                  triangles: [(2,0,1),(2,1,3),(0,4,5),(0,5,1)])";

@@ -53,6 +53,7 @@ mod triangle_lanes;
 mod triangle_reach;
 pub mod two_ended_bore;
 pub mod two_ended_round;
+pub mod two_frusta;
 
 use crate::Vec3;
 use crate::primitive::Sphere;

@@ -246,11 +246,11 @@ impl<'a> Seen<'a> {
 }
 
 /// Axis and radius by which an element is followed through round solids, m; of an ellipsoid the centre and the smallest
-/// semi-axis.
+/// semi-axis, of a cylinder or a cone the smaller radius.
 fn core(facts: &dyn Primitive) -> Option<([Vec3; 2], f64)> {
-    facts.core().or_else(|| match facts.followed() {
-        [Some(center), None, None] => Some(([center; 2], facts.smallest_radius_m()?)),
-        _ => None,
+    facts.core().or_else(|| {
+        let [one, other, _] = facts.followed();
+        Some(([one?, other.or(one)?], facts.smallest_radius_m()?))
     })
 }
 

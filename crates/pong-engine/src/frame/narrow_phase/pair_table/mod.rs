@@ -11,8 +11,8 @@
 //!  Sphere          x         x         x          x         x       x        x       x     x
 //!  Ellipsoid                 x         x          x         x       x        x       x
 //!  Capsule                             x          x         x       x        x       x     x
-//!  Cylinder                            x          x         x                              x
-//!  Cone                                x          x         x
+//!  Cylinder                            x          x         x                x       x     x
+//!  Cone                                x          x         x                        x
 //! ```
 //!
 //! Point–Triangle is blank on purpose: no depth can be defined.
@@ -50,6 +50,7 @@ use pong_geometry::interference::sphere_sphere::sphere_sphere;
 use pong_geometry::interference::two_ended_round::{
     capsule_capsule, capsule_frustum, segment_capsule, segment_frustum,
 };
+use pong_geometry::interference::two_frusta::two_frusta;
 use pong_geometry::primitive::PrimitiveKind::{self, *};
 
 /// Contact tester: one element of A, in B's frame, against one element of B.
@@ -147,10 +148,13 @@ const ROWS: &[KindPair] = &[
     row(Cylinder, Triangle, frustum_triangle, 4000, 14),
     row(Cylinder, Polyhedron, frustum_polyhedron, 2000, 14),
     row(Cylinder, Plane, by!(Frustum, planes, frustum_plane, emit_halves), 50, 4),
+    row(Cylinder, Cylinder, by!(Frustum, frusta, two_frusta, emit_shares), 4000, 4),
+    row(Cylinder, Cone, by!(Frustum, frusta, two_frusta, emit_shares), 4000, 4),
     row(Cylinder, Bore, axis_in_bore, 3000, 4),
     row(Cone, Triangle, frustum_triangle, 4000, 14),
     row(Cone, Polyhedron, frustum_polyhedron, 2000, 14),
     row(Cone, Plane, by!(Frustum, planes, frustum_plane, emit_halves), 50, 4),
+    row(Cone, Cone, by!(Frustum, frusta, two_frusta, emit_shares), 4000, 4),
 ];
 
 const KINDS: usize = PrimitiveKind::ALL.len();
