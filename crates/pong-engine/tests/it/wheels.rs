@@ -164,7 +164,7 @@ fn the_wrench_of_a_wheel_is_the_derivative_of_its_energy() {
                  (0.7,-0.8,0)], triangles: [(0,1,2),(0,2,3),(0,3,4),(0,4,5),(0,5,1)])";
     let grounds = [
         ("box", box_polyhedron("b", [0.0, 0.0, -0.2], [0.35, 0.3, 0.2], ""), 0.0),
-        ("ridge", ridge.to_owned(), 0.19),
+        ("ridge", ridge.to_owned(), 0.1),
     ];
     for ((name, parts, top), part) in
         grounds.iter().flat_map(|ground| [WHEEL, PLUG].map(|part| (ground, part)))
@@ -207,6 +207,6 @@ fn the_wrench_of_a_wheel_is_the_derivative_of_its_energy() {
             }
         }
         println!("{name}: {tested} derivatives, worst {worst:.1e} of the force; {kinks} at kinks");
-        assert!(tested > cases && kinks * 20 < tested, "{name}: {tested} {kinks}");
+        assert!(2 * tested > 3 * cases && 20 * kinks < tested, "{name}: {tested} {kinks}");
     }
 }

@@ -24,7 +24,7 @@ pub(super) struct Along {
     /// Length of the translation, D, m; negative if the bodies are apart along the normal.
     pub overlap: f64,
     /// Point of the sum farthest along the normal, seen from A's centre, G, m.
-    pub farthest: Vec3,
+    pub farthest_b: Vec3,
     /// Radii of curvature of the sum there, m.
     pub radii: Mat3,
 }
@@ -36,8 +36,8 @@ impl Along {
     /// Adds the parts of an ellipsoid and of another body along the unit normal `n`.
     pub fn new(n: &Vec3, a: &PreparedEllipsoid, (reach, radii): Part) -> Self {
         let (reach_a, radii_a) = a.part(n);
-        let farthest = reach_a + reach - a.center;
-        Self { overlap: n.dot(&farthest), farthest, radii: radii_a + radii }
+        let farthest_b = reach_a + reach - a.center;
+        Self { overlap: n.dot(&farthest_b), farthest_b, radii: radii_a + radii }
     }
 }
 
@@ -85,9 +85,9 @@ pub(super) fn descend(start: &Vec3, along: impl Fn(&Vec3) -> Along) -> Vec3 {
     const FARTHEST: f64 = 0.5;
     let (mut normal, mut damping) = (*start, 0.0);
     let mut here = along(&normal);
-    let mut slope = here.farthest - normal * here.overlap;
+    let mut slope = here.farthest_b - normal * here.overlap;
     for _ in 0..STEPS {
-        let size = here.farthest.norm() + here.radii.amax();
+        let size = here.farthest_b.norm() + here.radii.amax();
         if here.overlap <= 0.0 || slope.norm() <= f64::EPSILON * size {
             break;
         }
@@ -108,7 +108,7 @@ pub(super) fn descend(start: &Vec3, along: impl Fn(&Vec3) -> Along) -> Vec3 {
         let step = if length > FARTHEST { step * (FARTHEST / length) } else { step };
         let next = (normal + step).normalize();
         let there = along(&next);
-        let slope_there = there.farthest - next * there.overlap;
+        let slope_there = there.farthest_b - next * there.overlap;
         let noise = ROUNDING * size;
         // Near the minimum D is flat to rounding, and the slope decides.
         let flatter = there.overlap <= here.overlap + noise && slope_there.norm() < slope.norm();
