@@ -75,11 +75,19 @@ impl EndDisc<'_> {
     }
 
     /// Returns the contact of the highest point of the rim with a triangle below whose plane it lies. The centre is then
-    /// behind the triangle too.
-    pub fn highest_on_triangle(&self, set: &TriangleSet, triangle: u32) -> Option<TriangleContact> {
+    /// behind the triangle too, by less than `thickness`, m.
+    pub fn highest_on_triangle(
+        &self,
+        set: &TriangleSet,
+        triangle: u32,
+        thickness: f64,
+    ) -> Option<TriangleContact> {
         let view = TriangleView::new(set, triangle);
         let center = &self.frustum.ends[self.end];
         let height = view.height(center);
+        if height >= 0.0 || height <= -thickness {
+            return None;
+        }
         let to_lowest = self.lowest(&view.normal);
         let depth = -height - view.normal.dot(&to_lowest);
         let highest = self.highest(&Interference {

@@ -33,7 +33,8 @@ pub fn side_edge(frustum: &Frustum, edge: &ConvexEdge) -> Option<Interference> {
         let generator = Generator::new(frustum, &side);
         let (at, on_edge) = generator.crossing(&edge.ends_b[0], &along);
         if 0.0 < on_edge && on_edge < 1.0 {
-            return generator.touch(edge, &edge.ends_b[0], at).filter(|_| toward[0].max(toward[1]) > 0.0);
+            let place = edge.ends_b[0] + along * on_edge;
+            return generator.touch(edge, &place, at).filter(|_| toward[0].max(toward[1]) > 0.0);
         }
     }
     let of_end = |end: &Vec3| {
@@ -80,9 +81,10 @@ impl<'a> Generator<'a> {
         (place - self.start).dot(&self.along) / self.along.norm_squared()
     }
 
-    /// Returns the contact with the edge, `place` of which is a point, at the fraction `at` of the generator.
+    /// Returns the contact with a place of the edge, at the fraction `at` of the generator.
     fn touch(&self, edge: &ConvexEdge, place: &Vec3, at: f64) -> Option<Interference> {
-        let depth = self.normal.dot(&(self.start - place));
+        let touched = self.start + self.along * at;
+        let depth = self.normal.dot(&(touched - place));
         let [first, last] = self.frustum.radii;
         // Distance of the axis from the side, along the normal.
         let thickness = (first + (last - first) * at) / self.frustum.wall[1];
@@ -90,7 +92,7 @@ impl<'a> Generator<'a> {
         (is_between && 0.0 < depth && depth < thickness).then(|| Interference {
             depth,
             normal_b: -self.normal.normalize(),
-            deepest_b: self.start + self.along * at,
+            deepest_b: touched,
             feature: edge.feature,
         })
     }

@@ -101,7 +101,12 @@ pub(super) fn frustum_polyhedron(
         return;
     };
     if let Some(at_piece) = CapsuleAtPiece::new(&side, polyhedron) {
-        at_piece.each_crossing(|crossing| pair.between_discs(crossing, found));
+        // An edge past which the axis has sunk does not push, as with cones and on triangles.
+        at_piece.each_crossing(|crossing| {
+            if crossing.depth < side.radius {
+                pair.between_discs(crossing, found);
+            }
+        });
     }
 }
 
@@ -126,7 +131,7 @@ pub(super) fn frustum_triangle(
         disc.on_triangle(set, triangle, thickness, &mut |contact| {
             on_triangle(pair, &center(end), contact, found);
         });
-        if let Some(highest) = disc.highest_on_triangle(set, triangle) {
+        if let Some(highest) = disc.highest_on_triangle(set, triangle, thickness) {
             on_triangle(pair, &center(end + 2), highest, found);
         }
     }
