@@ -1,6 +1,6 @@
-//! What a platform grants.
+//! Grants of a platform.
 
-/// What a platform grants a real-time program, for `pong doctor` and documents.
+/// Grants of a platform to a real-time program, for `pong doctor` and documents.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Grants {
     /// Name of the operating system.

@@ -1,4 +1,4 @@
-//! What the crate asks of the operating system, one file per system with the same functions: the cores of the
+//! Requests to the operating system, one file per system with the same functions: the cores of the
 //! process, binding, priorities, signals. Time, files and threads themselves come from the standard library.
 //! `docs/platforms.md` has the table.
 
