@@ -39,3 +39,4 @@ mod round_support;
 mod segment_all_faces;
 mod segment_grazing;
 mod sphere_triangle_pairs;
+mod two_capsules;

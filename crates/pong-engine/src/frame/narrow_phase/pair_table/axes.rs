@@ -9,7 +9,7 @@ use pong_geometry::interference::capsule_polyhedron::CapsuleAtPiece;
 use pong_geometry::interference::line_segment_polyhedron::{AtWall, line_segment_piece};
 use pong_geometry::interference::triangle_features::{EdgeClass, TriangleView};
 use pong_geometry::interference::two_ended_bore::{capsule_bore, cylinder_bore, segment_bore};
-use pong_geometry::interference::two_ended_round::EndContacts;
+use pong_geometry::interference::two_ended_round::EndContact;
 use pong_geometry::interference::{Feature, Interference};
 use pong_geometry::primitive::{Containment, Polyhedron};
 
@@ -129,15 +129,15 @@ pub(super) fn emit_halves<A>(
     }
 }
 
-/// Adds the contacts of a segment or capsule with a round solid: at each end of the overlap and at the
-/// deepest point. Each contact has half a spring, and its share as weight.
+/// Adds the contacts of a segment or capsule with a round solid: at each end of the overlap and, on a cylinder or
+/// a cone, at the deepest point. Each contact has half a spring, and its share as weight.
 pub(super) fn emit_shares<A>(
     pair: &ElementPair<'_>,
     _: &A,
-    contacts: EndContacts,
+    contacts: impl AsRef<[Option<EndContact>]>,
     found: &mut ChunkCandidates<'_>,
 ) {
-    for (end, contact) in contacts.iter().enumerate() {
+    for (end, contact) in contacts.as_ref().iter().enumerate() {
         let Some(contact) = contact else { continue };
         pair.emit(pair.key_at(end as u32), &contact.interference, found, |out| {
             out.half = true;
