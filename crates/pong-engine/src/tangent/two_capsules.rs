@@ -28,7 +28,7 @@ pub(super) fn moves_at_end(axes: &TwoAxes, radius: f64, end: usize) -> Option<Mo
     if distance < CROSSING * depth {
         return None;
     }
-    let [along, back] = axes.along;
+    let [along, back] = axes.along_b;
     let in_plane = Mat3::identity() - normal * normal.transpose();
     let carried = displacement_slopes(&axes.place_a(at[0]));
     let held = Held { normal: in_plane * carried / distance, depth: -(normal.transpose() * carried) };

@@ -56,7 +56,7 @@ pub struct TwoAxes {
     between: Vec3,
     /// Vector from end 0 to end 1 of A's axis, and from end 1 to end 0 of B's, m: the derivatives of the
     /// vector from the place on B to the place on A.
-    pub along: [Vec3; 2],
+    pub along_b: [Vec3; 2],
     /// Sum of the radii, m.
     reach: f64,
 }
@@ -84,7 +84,7 @@ impl TwoAxes {
             ends_a: *ends,
             ends_b: capsule.ends,
             between: 0.5 * ((a[0] - b[0]) + (a[1] - b[1])),
-            along: [a[1] - a[0], b[0] - b[1]],
+            along_b: [a[1] - a[0], b[0] - b[1]],
             reach: radius + capsule.radius,
         }
     }
@@ -92,9 +92,9 @@ impl TwoAxes {
     /// Returns a place on A's axis, m.
     pub fn place_a(&self, at: f64) -> Vec3 {
         if at <= 0.0 {
-            self.ends_a[0] + self.along[0] * (at + 0.5)
+            self.ends_a[0] + self.along_b[0] * (at + 0.5)
         } else {
-            self.ends_a[1] + self.along[0] * (at - 0.5)
+            self.ends_a[1] + self.along_b[0] * (at - 0.5)
         }
     }
 
@@ -105,19 +105,22 @@ impl TwoAxes {
             return None;
         }
         let start = [place_on(&self.ends_a, &on_a), place_on(&self.ends_b, &on_b)];
-        let size = self.between.norm() + self.along[0].norm() + self.along[1].norm();
+        let lengths = [self.between, self.along_b[0], self.along_b[1]].map(|v| v.norm());
+        let coordinates = self.ends_a.iter().chain(&self.ends_b).map(|end| end.amax());
+        let size = coordinates.fold(lengths.iter().sum(), f64::max);
         let visit = |at: [f64; 2]| Visit::new(self, at, size);
-        let mut second = start[1];
+        // The place on B at the place on A visited last, and how fast it follows.
+        let (mut last, mut rate) = (start, 0.0);
         let found = zero_of_rising(start[0], |first| {
+            let second = (last[1] + rate * (first - last[0])).clamp(-0.5, 0.5);
             let visit = zero_of_rising(second, |second| {
                 let visit = visit([first, second]);
                 (visit.slope(1), visit.curvature[1][1], visit)
             });
-            second = visit.load.at[1];
+            last = visit.load.at;
             let [[own, cross], [_, other]] = visit.curvature;
-            let follows = second.abs() < 0.5 && other > 0.0;
-            let total = if follows { own - cross * cross / divisor(other) } else { own };
-            (visit.slope(0), total, visit)
+            rate = if last[1].abs() < 0.5 { -cross / divisor(other) } else { 0.0 };
+            (visit.slope(0), own + cross * rate, visit)
         });
         let load = match found.crosses {
             true => Load { normal_b: self.normal_where_axes_cross(&found.load), ..found.load },
@@ -130,7 +133,7 @@ impl TwoAxes {
     /// from −½ to ½. It contains the place of the load.
     pub fn overlap(&self, load: &Load) -> [f64; 2] {
         // The axis of A, measured from the load: origin + way·along.
-        let (along, back) = (self.along[0], self.along[1]);
+        let (along, back) = (self.along_b[0], self.along_b[1]);
         let origin = self.between + along * load.at[0];
         let reach_squared = self.reach * self.reach;
         let part_in_ball = |center: &Vec3| {
@@ -167,7 +170,7 @@ impl TwoAxes {
     /// Returns the normal where the two axes cross: as much along them as the yield of the ends asks for,
     /// the rest across both.
     fn normal_where_axes_cross(&self, load: &Load) -> Vec3 {
-        let [u, v] = &self.along;
+        let [u, v] = &self.along_b;
         let across = u.cross(v);
         let [uu, vv, uv] = [u.norm_squared(), v.norm_squared(), u.dot(v)];
         let needed = load.at.map(|at| -2.0 * load.depth * at / load.spread);
@@ -202,16 +205,16 @@ impl Visit {
         let load = Load::at(axes, at);
         let pulls = at.map(|at| load.pull() * at);
         if load.distance <= 16.0 * ROUNDING * size {
-            let slopes = slopes_at_crossing(&axes.along, pulls);
+            let slopes = slopes_at_crossing(&axes.along_b, pulls);
             return Self { load, crosses: true, slopes, curvature: [[0.0; 2]; 2], rounding: [0.0; 2] };
         }
-        let lean = |k: usize| load.normal_b.dot(&axes.along[k]);
+        let lean = |k: usize| load.normal_b.dot(&axes.along_b[k]);
         Self {
             load,
             crosses: false,
             slopes: [0, 1].map(|k| lean(k) + pulls[k]),
             curvature: load.curvature(axes),
-            rounding: axes.along.map(|along| ROUNDING * size / load.distance * along.norm()),
+            rounding: axes.along_b.map(|along| ROUNDING * size / load.distance * along.norm()),
         }
     }
 
@@ -235,7 +238,7 @@ fn slopes_at_crossing([u, v]: &[Vec3; 2], pulls: [f64; 2]) -> [f64; 2] {
 
 impl Load {
     fn at(axes: &TwoAxes, at: [f64; 2]) -> Self {
-        let vector = axes.between + axes.along[0] * at[0] + axes.along[1] * at[1];
+        let vector = axes.between + axes.along_b[0] * at[0] + axes.along_b[1] * at[1];
         let distance = vector.norm();
         let normal_b = vector / distance.max(f64::MIN_POSITIVE);
         let spread = 1.0 + 2.0 * (at[0] * at[0] + at[1] * at[1]);
@@ -250,7 +253,7 @@ impl Load {
     /// Returns the second derivatives of −ln(δ/√W) with respect to the places where the first are zero,
     /// times δ, m.
     pub fn curvature(&self, axes: &TwoAxes) -> [[f64; 2]; 2] {
-        let [u, v] = &axes.along;
+        let [u, v] = &axes.along_b;
         let leans = [u, v].map(|along| self.normal_b.dot(along));
         let of = |i: usize, j: usize, product: f64| {
             let yields = if i == j { 1.0 } else { 0.0 } - 2.0 * self.at[i] * self.at[j] / self.spread;

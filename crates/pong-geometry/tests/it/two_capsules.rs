@@ -194,7 +194,7 @@ fn paths_gain_and_lose_nothing() {
             continue;
         }
         let ends = [0.0, 1.0];
-        let done = work(&power, ends, [power(0.0), power(0.5), power(1.0)], 45, 1e-11 * largest);
+        let done = work(&power, ends, [power(0.0), power(0.5), power(1.0)], 40, 1e-10 * largest);
         let gained = (done + samples[4] - samples[0]).abs() / largest;
         assert!(gained < 1e-9, "case {case}: {gained:e} of the largest stored {a:?} {b:?}");
         worst = worst.max(gained);
@@ -224,7 +224,7 @@ fn known_cases_carry_what_the_rule_says() {
     // A tip on the middle: k/(1 + ½); on a tip: half.
     let standing = |x: f64| capsule([[x, 0.0, height], [x, 0.0, height + 1.0]], 0.1);
     assert_near(force(&standing(0.0), &b), depth / 1.5, 1e-12);
-    assert_near(force(&standing(0.51), &b), 0.5 * depth, depth);
+    assert_near(force(&standing(0.5), &b), 0.5 * depth, depth);
     // Crossing in the middle of both: k; at a fifth of one, k/(½ + 0.68).
     let across = |x: f64, y: f64| capsule([[x, y - 0.5, height], [x, y + 0.5, height]], 0.1);
     assert_near(force(&across(0.0, 0.0), &b), depth, 1e-12);
@@ -234,6 +234,27 @@ fn known_cases_carry_what_the_rule_says() {
     let rod = capsule([[-0.3, 0.0, 0.3 - depth], [0.6, 0.1, 0.3 - depth]], 0.1);
     let thinner = Capsule { radius: 0.2, ..b };
     assert_near(force(&bar, &b), force(&rod, &thinner), 1e-12);
+}
+
+/// Lying on one of the length L, a bar of the length l resists tilting with ½k·l²L²/(l² + L²), however it overhangs.
+#[test]
+fn a_bar_that_lies_resists_tilting() {
+    let depth = 1e-3;
+    for (length, shift) in [(1.0, 0.0), (1.0, 0.7), (20.0, 0.0), (20.0, 3.0), (0.2, 0.1)] {
+        let b = capsule([[-0.5 * length, 0.0, 0.0], [0.5 * length, 0.0, 0.0]], 0.3);
+        let a = capsule([[shift - 0.5, 0.0, 0.4 - depth], [shift + 0.5, 0.0, 0.4 - depth]], 0.1);
+        let tilted = |angle: f64| wrench(&moved(&a, &Vec3::zeros(), &(Vec3::y() * angle)), &b);
+        // About the place of the load, so that the depth there does not change.
+        let (here, step) = (tilted(0.0), 1e-7);
+        let at = -here.moment.y / here.force.z;
+        let about = |w: Wrench| w.moment.y + at * w.force.z;
+        let lift = |angle: f64| moved(&a, &(Vec3::z() * (at * angle)), &(Vec3::y() * angle));
+        let [up, down] = [step, -step].map(|angle| about(wrench(&lift(angle), &b)));
+        let square = length * length;
+        let expected = 0.5 * square / (1.0 + square);
+        let found = (down - up) / (2.0 * step);
+        assert!((found / expected - 1.0).abs() < 0.02, "{length} {shift}: {found} instead of {expected}");
+    }
 }
 
 /// While axes pass 90°, or a bar lies flat, beside their ends, force and moment do not step.
@@ -358,7 +379,7 @@ fn crossing_axes_have_a_normal() {
             let mirrored = here.0 - across * (2.0 * across.dot(&here.0));
             (here.0 - force).norm().min((mirrored - force).norm())
         };
-        assert!(off(there.0) < 1e-6, "case {case}: {} {}", here.0, there.0);
+        assert!(off(there.0) < 1e-5, "case {case}: {} {}", here.0, there.0);
         let x = random_motion(&mut random, 2.0);
         let turned = x.rotation.tr_mul(&wrench(&a.carried(&x), &b.carried(&x)).force);
         assert!(off(turned) < 1e-9, "case {case}: {} {turned}", here.0);
