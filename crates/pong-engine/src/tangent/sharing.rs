@@ -37,9 +37,9 @@ impl Slope {
 pub(super) fn weigh(kind_a: PrimitiveKind, contacts: &mut [Moving<'_>]) -> Option<()> {
     let kind_b = contacts[0].contact.found.kind_b;
     let two_ended = matches!(kind_a, Capsule | LineSegment);
-    // The weights of two capsules are known, unless a declared surface shares them among several of its parts.
-    if two_ended && contacts.iter().any(|moving| moving.contact.found.kind_b == Capsule) {
-        return (!contacts[0].contact.found.shares).then_some(());
+    // The derivatives of the weights of two capsules come with those of their places.
+    if two_ended && kind_b == Capsule {
+        return Some(());
     }
     let on_flat = matches!(kind_b, Polyhedron | Triangle);
     if two_ended && !on_flat && !contacts[0].contact.found.shares {

@@ -3,7 +3,6 @@
 use crate::common::*;
 use pong_engine::State;
 use pong_geometry::{Quat, Vec3};
-use pong_testkit::Random;
 
 const K: f64 = 1e5;
 const DEPTH: f64 = 1e-3;
@@ -215,42 +214,5 @@ fn a_solid_box_does_not_notice_the_joint_of_two_solids() {
         assert!(expected.force.z > 1.0, "{expected:?}");
         let off = (got.force - expected.force).norm() + (got.moment - expected.moment).norm();
         assert!(off <= 1e-9 * expected.force.z, "step {step}: {got:?} {expected:?}");
-    }
-}
-
-/// A round part that is in a declared surface twice pushes a rod or a segment as if it were there once.
-#[test]
-fn round_parts_that_are_there_twice_push_once() {
-    let rods = [
-        "Capsule(name: \"m\", ends: ((-0.4,0,0),(0.4,0.1,0)), radius: 0.1)",
-        "LineSegment(name: \"m\", ends: ((-0.4,0,-0.1),(0.4,0.1,-0.1)))",
-    ];
-    let parts = [
-        "Capsule(name: \"log\", ends: ((-0.5,0,-0.2),(0.5,0,-0.2)), radius: 0.2)",
-        "Cylinder(name: \"log\", ends: ((-0.5,0,-0.2),(0.5,0,-0.2)), radius: 0.2)",
-    ];
-    let mut random = Random(4);
-    for (rod, part) in rods.iter().flat_map(|rod| parts.iter().map(move |part| (rod, part))) {
-        let mover = model("mover", &steel(), rod);
-        let twice = format!("{part}, {}", part.replace("\"log\"", "\"again\""));
-        let bodies = [model("once", &steel(), part), joint(part), joint(&twice)];
-        let mut rigs = bodies.map(|body| Rig::new(&mover, &body));
-        let mut touching = 0;
-        for case in 0..200 {
-            let place = Vec3::new(random.between(-0.7, 0.7), 0.0, 0.1 - DEPTH) + random.vector(0.02);
-            let turn = Quat::from_scaled_axis(random.vector(0.2));
-            let [once, declared, twice] = rigs.each_mut().map(|rig| {
-                rig.world.clear_contact_history(rig.objects[0]).unwrap();
-                rig.place_a(place, turn);
-                rig.world.evaluate().unwrap();
-                rig.wrench(0)
-            });
-            for other in [declared, twice] {
-                let off = (other.force - once.force).norm() + (other.moment - once.moment).norm();
-                assert!(off <= 1e-9 * once.force.norm(), "{rod} {part} {case}: {other:?} {once:?}");
-            }
-            touching += usize::from(once.force.norm() > 0.0);
-        }
-        assert!(touching > 50, "{touching}");
     }
 }

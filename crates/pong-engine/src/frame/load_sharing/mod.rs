@@ -106,7 +106,7 @@ fn share_capsules(
         let edges = body.partition_point(|found| found.key.end < BETWEEN_ENDS);
         let joint = body.len() > 1 && is_joint(&body[0], context);
         if joint {
-            body.iter_mut().for_each(share_with_surface);
+            body.iter_mut().for_each(|found| found.shares = true);
         }
         // Contacts with round solids and planes already have their weights.
         if !body[0].shares {
@@ -132,15 +132,6 @@ fn share_capsules(
         }
     }
     outcome
-}
-
-/// Lets a contact of a capsule share its spring with the others of a declared surface. On a cylinder or a cone this
-/// gives the ends of the overlap their shares anew.
-fn share_with_surface(found: &mut ContactCandidate) {
-    found.shares = true;
-    if matches!(found.kind_b, PrimitiveKind::Cylinder | PrimitiveKind::Cone) {
-        found.weight = 1.0;
-    }
 }
 
 /// Returns true for a contact of a capsule's axis with an edge, between the capsule's end spheres.
@@ -292,7 +283,7 @@ fn find_shares(
     }
     let outcome = share_within(shared_contacts, scratch);
     for (contact, shared_contact) in group.iter_mut().filter(|c| c.takes_part()).zip(shared_contacts.iter()) {
-        contact.weight *= shared_contact.lambda / shared_contact.depth;
+        contact.weight = shared_contact.lambda / shared_contact.depth;
     }
     outcome
 }
