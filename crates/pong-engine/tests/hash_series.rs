@@ -32,7 +32,7 @@ const KNOWN: [(&str, u64, u64); 9] = [
     ("crowd", 0xa6efc9208413bcf4, 0x6900a47b22bdebb9),
     ("bowl", 0x776b53145068c012, 0xf1abfd87a2c723bd),
     ("swarm", 0x30fc36b416b03545, 0xc4dcb5fed059d14a),
-    ("round", 0xd63caea779335975, 0x17f74defe5efcbe1),
+    ("round", 0xe3706c75723f5d59, 0xa92607562084ff92),
 ];
 
 /// A scene run by the caller alone, with the data needed to continue from any frame.
