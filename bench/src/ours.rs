@@ -17,8 +17,8 @@ use pong_geometry::interference::{
     sphere_triangle::sphere_over_face, sphere_triangle::sphere_triangle,
     sphere_triangle_pairs::SphereTrianglePairs, triangle_features::TriangleContact,
     triangle_features::TriangleView, two_ended_bore::EndsInBore, two_ended_bore::capsule_bore,
-    two_ended_bore::cylinder_bore, two_ended_bore::segment_bore, two_ended_round::EndContacts,
-    two_ended_round::capsule_capsule, two_ended_round::capsule_frustum, two_ended_round::segment_capsule,
+    two_capsules::capsule_capsule, two_capsules::segment_capsule, two_ended_bore::cylinder_bore,
+    two_ended_bore::segment_bore, two_ended_round::EndContact, two_ended_round::capsule_frustum,
     two_ended_round::segment_frustum,
 };
 use pong_geometry::primitive::PrimitiveKind::{
@@ -543,7 +543,7 @@ fn deepest_of_both(found: &[Option<Interference>; 2]) -> Option<Interference> {
     found.iter().flatten().max_by(|a, b| a.depth.total_cmp(&b.depth)).copied()
 }
 
-fn deepest_end(found: EndContacts) -> Option<Interference> {
+fn deepest_end<const N: usize>(found: [Option<EndContact>; N]) -> Option<Interference> {
     deepest(found.map(|end| end.map(|contact| contact.interference)))
 }
 

@@ -8,17 +8,21 @@
 //! K += r·(w·k·nnᵀ + k_t·(1 − nnᵀ))·rᵀ        r: its three directions on both movable groups, mobility.rs
 //! ```
 //!
-//! and ω² = λ, the largest eigenvalue of K. Friction counts as if it stuck everywhere.
+//! and ω² = λ, the largest eigenvalue of K. Friction counts as if it stuck everywhere. Of two capsules, whose ends yield
+//! (docs/theory.md, 2.8), a whole spring k·nnᵀ counts at each end of each axis, of its own body alone: U is at most what
+//! any displacement of the ends stores that follows a motion of the bodies.
 
 use crate::coupling::surely_stable_with;
 use crate::mass::{GroupMass, SpringRates, StepPlan};
 use crate::mobility::{Vec6, largest_eigenvalue};
+use crate::places::yield_at_ends;
 use crate::setting::Setting;
 use crate::spring::ContactSprings;
 use nalgebra::DMatrix;
 use pong_engine::inspect::PushingContact;
 use pong_engine::{EngineError, InterfaceId, World};
 use pong_geometry::Vec3;
+use pong_geometry::primitive::PrimitiveKind;
 use std::collections::BTreeSet;
 
 /// Limits that the contacts of one frame set to a step.
@@ -50,12 +54,23 @@ pub fn acting_report(
     plan.check()?;
     let setting = Setting::new(world, masses)?;
     let mut not_judged = 0;
-    let mut acting = Vec::new();
+    let (mut acting, mut at_ends, mut axes) = (Vec::new(), Vec::new(), BTreeSet::new());
     for contact in setting.scene.pushing()? {
-        match Acting::new(&setting, &contact) {
-            Some(known) => acting.extend((!known.rows.is_empty()).then_some(known)),
-            None => not_judged += 1,
+        let Some(mut known) = Acting::new(&setting, &contact) else {
+            not_judged += 1;
+            continue;
+        };
+        if known.rows.is_empty() {
+            continue;
         }
+        let [a, b] = primitives_of(&contact);
+        if yield_at_ends(kind_of(&setting, a), kind_of(&setting, b)) {
+            if axes.insert((a, b)) {
+                at_ends.extend(known.at_ends_of_axes(&setting, &contact));
+            }
+            known.stiffens = 0.0;
+        }
+        acting.push(known);
     }
     let ratio = acting.iter().map(|one| one.springs.least_damped()).fold(f64::INFINITY, f64::min);
     let groups: BTreeSet<usize> = acting.iter().flat_map(|one| one.rows.iter().map(|row| row.0)).collect();
@@ -65,11 +80,11 @@ pub fn acting_report(
     let shared = shared.max().unwrap_or(1) as f64;
     let springs = sum_of_springs(&setting, &groups);
     let stiffness_rate = shared
-        * largest(&acting, |one| {
-            (one.weight * one.springs.normal.stiffness, one.springs.friction.map_or(0.0, |f| f.stiffness))
+        * largest(acting.iter().chain(&at_ends), |one| {
+            (one.stiffens * one.springs.normal.stiffness, one.springs.friction.map_or(0.0, |f| f.stiffness))
         });
     let damping_rate = shared
-        * largest(&acting, |one| {
+        * largest(acting.iter(), |one| {
             (one.weight * one.springs.normal.damping, one.springs.friction.map_or(0.0, |f| f.damping))
         });
     let rates = SpringRates { stiffness: stiffness_rate, damping: damping_rate };
@@ -94,9 +109,13 @@ fn sum_of_springs(setting: &Setting<'_>, groups: &BTreeSet<usize>) -> SpringRate
 }
 
 /// A contact with at least one body that yields.
+#[derive(Clone)]
 struct Acting {
     springs: ContactSprings,
     weight: f64,
+    /// Part of the normal spring that the stiffness has: the weight, but 0 for a contact of two capsules, whose springs
+    /// count at the ends of their axes.
+    stiffens: f64,
     /// Unit normal from B to A, in B's frame.
     normal: Vec3,
     /// The axes of B's frame as forces on the movable groups that yield.
@@ -112,21 +131,56 @@ impl Acting {
         }
         let springs = setting.pressed_springs(contact)?;
         let rows = rows_of(setting, contact);
-        Some(Self { springs, weight: contact.weight, normal: contact.normal_b, rows })
+        let weight = contact.weight;
+        Some(Self { springs, weight, stiffens: weight, normal: contact.normal_b, rows })
     }
+
+    /// Whole springs along this normal at the four ends of the axes of two capsules.
+    fn at_ends_of_axes(&self, setting: &Setting<'_>, contact: &PushingContact<'_>) -> Vec<Self> {
+        let x_ba = contact.x_ba;
+        let mut all = Vec::new();
+        for (k, (group, primitive)) in primitives_of(contact).into_iter().enumerate() {
+            let body = setting.scene.body(group);
+            let info = &body.primitives[primitive as usize];
+            let facts = body.element(info.kind, info.elements.start).facts();
+            let (Some(mobility), Some((ends, _))) =
+                (setting.mobilities[group].as_ref(), facts.and_then(|facts| facts.core()))
+            else {
+                continue;
+            };
+            for end in ends {
+                let axis = |axis: Vec3| if k == 0 { x_ba.rotation.tr_mul(&axis) } else { -axis };
+                let rows = AXES.map(|own| mobility.row(&axis(own), &end));
+                let springs = ContactSprings { friction: None, ..self.springs };
+                all.push(Self { rows: vec![(group, rows)], stiffens: 1.0, springs, ..self.clone() });
+            }
+        }
+        all
+    }
+}
+
+/// The axes of B's frame.
+const AXES: [Vec3; 3] = [Vec3::new(1.0, 0.0, 0.0), Vec3::new(0.0, 1.0, 0.0), Vec3::new(0.0, 0.0, 1.0)];
+
+/// Movable group and primitive of A and of B.
+fn primitives_of(contact: &PushingContact<'_>) -> [(usize, u32); 2] {
+    [(contact.group_a, contact.primitive_a), (contact.group_b, contact.primitive_b)]
+}
+
+fn kind_of(setting: &Setting<'_>, (group, primitive): (usize, u32)) -> PrimitiveKind {
+    setting.scene.body(group).primitives[primitive as usize].kind
 }
 
 /// The axes of B's frame, at a contact, as forces on the movable groups that yield.
 pub(crate) fn rows_of(setting: &Setting<'_>, contact: &PushingContact<'_>) -> Vec<(usize, [Vec6; 3])> {
     let x_ba = contact.x_ba;
     let at_a = x_ba.rotation.tr_mul(&(contact.point_b - x_ba.translation));
-    let axes = [Vec3::x(), Vec3::y(), Vec3::z()];
     let on_a = setting.mobilities[contact.group_a]
         .as_ref()
-        .map(|body| (contact.group_a, axes.map(|axis| body.row(&x_ba.rotation.tr_mul(&axis), &at_a))));
+        .map(|body| (contact.group_a, AXES.map(|axis| body.row(&x_ba.rotation.tr_mul(&axis), &at_a))));
     let on_b = setting.mobilities[contact.group_b]
         .as_ref()
-        .map(|body| (contact.group_b, axes.map(|axis| body.row(&-axis, &contact.point_b))));
+        .map(|body| (contact.group_b, AXES.map(|axis| body.row(&-axis, &contact.point_b))));
     on_a.into_iter().chain(on_b).collect()
 }
 
@@ -146,8 +200,11 @@ pub(crate) fn compliances_at(setting: &Setting<'_>, contact: &PushingContact<'_>
 }
 
 /// Largest eigenvalue of the sum over all contacts; `values` gives the rates along the normal and across it.
-fn largest(acting: &[Acting], values: impl Fn(&Acting) -> (f64, f64)) -> f64 {
-    let bodies: BTreeSet<usize> = acting.iter().flat_map(|one| one.rows.iter().map(|row| row.0)).collect();
+fn largest<'s>(
+    acting: impl Iterator<Item = &'s Acting> + Clone,
+    values: impl Fn(&Acting) -> (f64, f64),
+) -> f64 {
+    let bodies: BTreeSet<usize> = acting.clone().flat_map(|one| one.rows.iter().map(|row| row.0)).collect();
     let slot = |body: usize| 6 * bodies.iter().position(|other| *other == body).expect("collected above");
     let mut sum = DMatrix::<f64>::zeros(6 * bodies.len(), 6 * bodies.len());
     for one in acting {

@@ -2,7 +2,7 @@
 
 use crate::mass::{GroupMass, Joints, SpringRates, StepPlan};
 use crate::mobility::Mobility;
-use crate::places::{Compliance, Compliances, compliances};
+use crate::places::{Compliance, Compliances, compliances, yield_at_ends};
 use crate::spring::{ContactSprings, Spring, pressed_springs, springs};
 use pong_engine::inspect::{GroupPair, Inspection, PushingContact};
 use pong_engine::{EngineError, FrictionProps, InterfaceId, PairProps, World};
@@ -195,7 +195,7 @@ impl<'w> Setting<'w> {
     }
 
     /// Compliance of two bodies that touch anywhere: the sum of both; twice that if a push on one moves the
-    /// other.
+    /// other, and along the normal for two capsules, whose two ends may each have a whole spring.
     fn compliance(
         &self,
         (a, info_a): (usize, &PrimitiveInfo),
@@ -204,7 +204,10 @@ impl<'w> Setting<'w> {
         let of = |body: usize, info: &PrimitiveInfo| {
             self.compliances[body].get(&(info.kind, info.surface)).copied().unwrap_or_default()
         };
-        let both = of(a, info_a).plus(of(b, info_b));
+        let mut both = of(a, info_a).plus(of(b, info_b));
+        if yield_at_ends(info_a.kind, info_b.kind) {
+            both.normal *= 2.0;
+        }
         if self.share_joints(a, b) { both.plus(both) } else { both }
     }
 }

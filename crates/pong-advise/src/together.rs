@@ -18,6 +18,7 @@
 
 use crate::mass::StepPlan;
 use crate::mobility::{Mat6, Mobility, largest_eigenvalue};
+use crate::places::yield_at_ends;
 use crate::setting::Setting;
 use crate::spring::{ContactSprings, Spring, springs};
 use crate::term::Term;
@@ -153,10 +154,15 @@ impl Direction {
                 Some((_, made)) => *made,
                 None => {
                     let met = partners.iter().filter(|partner| meets(info, partner));
-                    let values = met
-                        .map(|partner| setting.scene.surface_values(table, (info.surface, partner.surface)));
-                    let made = values.filter_map(|props| springs(props, mass, plan.closing_speed).ok());
-                    let made = made.reduce(stiffest).map(|made| made.without(without));
+                    let values = met.filter_map(|partner| {
+                        let props = setting.scene.surface_values(table, (info.surface, partner.surface));
+                        let mut made = springs(props, mass, plan.closing_speed).ok()?;
+                        if yield_at_ends(info.kind, partner.kind) {
+                            made.normal.stiffness *= 2.0;
+                        }
+                        Some(made)
+                    });
+                    let made = values.reduce(stiffest).map(|made| made.without(without));
                     cached.push((of, made));
                     made
                 }

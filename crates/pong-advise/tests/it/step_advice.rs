@@ -440,3 +440,30 @@ fn what_acts_is_the_same_from_any_side() {
         assert!((acting.stiffness_rate / expected - 1.0).abs() < 1e-9, "{turn:?}: {acting:?} {expected}");
     }
 }
+
+/// A rod that lies on another one tilts on up to twice the stiffness that it has on a plane, ½k·l²L²/(l² + L²), however
+/// short the overlap: the adviser's bounds hold.
+#[test]
+fn a_rod_that_rocks_on_another_is_within_the_bounds() {
+    // A thin rod of 1 m and 3 kg.
+    let rod = GroupMass { inertia: [1e-3, 0.25, 0.25, 0.0, 0.0, 0.0], ..GroupMass::point(3.0) };
+    let capsule =
+        |half: f64| format!("Capsule(name: \"c\", ends: ((-{half:?},0,0),({half:?},0,0)), radius: 0.1)");
+    let upper = model("rod", &capsule(0.5), K, "None");
+    for (half, shift) in [(0.5, 0.0), (0.5, 0.9), (10.0, 0.0), (10.0, 10.0), (0.1, 0.55)] {
+        let log = model("log", &capsule(half), f64::INFINITY, "None");
+        let mut both = Meeting::new(&[&upper, &log], &[rod, GroupMass::immovable()]);
+        let plan = plan(1e-4);
+        let before = both.report(&plan);
+        let acting = both.at(&[[shift, 0.0, 0.1999], [0.0; 3]], &plan);
+        let tangent = both.world.tangents().unwrap();
+        let found = tangent[0].stiffness[0][0][(4, 4)];
+        if shift == 0.0 {
+            let square = 4.0 * half * half;
+            assert!(is_near(found, 0.5 * K * square / (1.0 + square), 1e-3), "{half}: {found}");
+        }
+        let rate = found / 0.25;
+        assert!(acting.stiffness_rate > rate, "{half} {shift}: {} < {rate}", acting.stiffness_rate);
+        assert!(before.surely_stable_step() < longest(rate), "{half} {shift}");
+    }
+}

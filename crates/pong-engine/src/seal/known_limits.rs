@@ -24,7 +24,7 @@ struct KnownLimit {
 const LIMITS: &[KnownLimit] = &[
     KnownLimit {
         a: &[LineSegment, Capsule],
-        b: &[Capsule, Cylinder, Cone],
+        b: &[Cylinder, Cone],
         may_show: always,
         text: "the stored energy steps, by up to half of it, where the two axes pass 90° while an end of one touches beside an end \
                of the other: closed paths may gain energy there; keep crossing axes away from their ends",

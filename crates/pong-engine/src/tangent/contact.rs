@@ -25,6 +25,8 @@ pub(super) struct Moving<'a> {
     /// Committed record that the contact continues.
     pub record: Option<&'a ContactRecord>,
     pub moves: Moves,
+    /// Derivative of the depth by the motion of A at the contact alone, without that of the place of the load.
+    pub pressing: RowVector6<f64>,
     /// Derivative of the weight with respect to (u, φ).
     pub weight: RowVector6<f64>,
     /// Share of the tangential spring, no unit, and its derivative with respect to (u, φ).

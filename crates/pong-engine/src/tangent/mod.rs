@@ -5,6 +5,7 @@
 //! |---|---|
 //! | `shape.rs` | radii of curvature of both surfaces at a contact |
 //! | `moves.rs`, `ray.rs` | derivatives of depth, normal and contact point with the relative pose |
+//! | `two_capsules.rs` | the same, and of the weights, where two bodies with two ends yield |
 //! | `sharing.rs` | derivatives of the weights of contacts that share a spring |
 //! | `friction.rs`, `contact.rs` | derivatives of the force of one contact |
 //! | `resistance.rs` | derivatives of the couple that resists rolling and spinning |
@@ -20,6 +21,7 @@ mod ray;
 mod resistance;
 mod shape;
 mod sharing;
+mod two_capsules;
 
 pub use blocks::{PairTangent, TangentMatrix};
 pub use potential::PairPotential;
@@ -37,10 +39,12 @@ use contact::Moving;
 use moves::{Moves, Touch};
 use nalgebra::RowVector6;
 use pong_geometry::extension::PrimitiveRef;
+use pong_geometry::interference::two_capsules::TwoAxes;
 use pong_geometry::primitive::{PrimitiveKind, Ray};
 use potential::Increment;
 use ray::RayHit;
 use shape::{AtContact, Shape};
+use two_capsules::{MovesAtEnd, moves_at_end};
 
 /// Reason why a contact has no tangent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -227,16 +231,40 @@ impl<'a> Frame<'a> {
         {
             return unknown(Missing::HostLaw);
         }
-        let Some(moves) = self.moves(contact) else { return unknown(Missing::Shapes) };
+        let known = match self.two_axes(contact) {
+            Some((axes, radius)) => {
+                let at_end = moves_at_end(&axes, radius, contact.found.key.end as usize);
+                at_end.map(|MovesAtEnd { moves, pressing, weight }| (moves, pressing, weight))
+            }
+            None => self.moves(contact).map(|moves| (moves, moves.depth, RowVector6::zeros())),
+        };
+        let Some((moves, pressing, weight)) = known else { return unknown(Missing::Shapes) };
         Ok(Moving {
             contact,
             kind_a: self.kind_a(contact),
             record: reference.continues().map(|index| &self.context.memory.records[index]),
             moves,
-            weight: RowVector6::zeros(),
+            pressing,
+            weight,
             share: 0.0,
             share_slope: RowVector6::zeros(),
         })
+    }
+
+    /// Axes of a segment or a capsule and a capsule, with the radius of A; `None` for other kinds.
+    fn two_axes(&self, contact: &FrameContact) -> Option<(TwoAxes, f64)> {
+        let (context, found) = (self.context, &contact.found);
+        let element_a = context.body_a.element(self.kind_a(contact), found.element_a);
+        let (ends, radius) = match element_a {
+            PrimitiveRef::LineSegment(segment) => (segment.ends, 0.0),
+            PrimitiveRef::Capsule(capsule) => (capsule.ends, capsule.radius),
+            _ => return None,
+        };
+        let PrimitiveRef::Capsule(b) = context.body_b.element(found.kind_b, found.element_b) else {
+            return None;
+        };
+        let ends = ends.map(|end| context.motion.x_ba.point(&end));
+        Some((TwoAxes::new(&ends, radius, b), radius))
     }
 
     fn moves(&self, contact: &FrameContact) -> Option<Moves> {

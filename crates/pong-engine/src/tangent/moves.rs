@@ -147,25 +147,25 @@ mod tests {
     use crate::tangent::shape::AtContact;
     use pong_geometry::extension::PrimitiveRef;
     use pong_geometry::interference::Interference;
-    use pong_geometry::interference::two_ended_round::capsule_capsule;
-    use pong_geometry::primitive::Capsule;
+    use pong_geometry::interference::two_ended_round::capsule_frustum;
+    use pong_geometry::primitive::{Capsule, Frustum};
     use pong_geometry::{Quat, Transform};
 
-    /// Moves of each contact of two capsules against central differences of the tester.
+    /// Moves of each contact of a capsule and a cylinder against central differences of the tester.
     #[test]
-    fn moves_of_two_capsules() {
+    fn moves_of_a_capsule_on_a_cylinder() {
         let a =
             Capsule { ends: [Vec3::new(-0.73, 0.35, 0.015), Vec3::new(0.73, -0.35, -0.015)], radius: 0.15 };
-        let b = Capsule { ends: [Vec3::new(-0.1, -0.4, 0.3), Vec3::new(0.1, 0.4, -0.3)], radius: 0.5 };
+        let b = Frustum::new([Vec3::new(-0.1, -0.4, 0.3), Vec3::new(0.1, 0.4, -0.3)], [0.5; 2]);
         let pose = pong_geometry::Pose::new(Vec3::new(0.4, 0.009, 0.5), [0.5553, -0.01437, 0.25434, 0.79166]);
         let x = pose.transform();
-        let found = |x: &Transform| capsule_capsule(&a.carried(x), &b).map(|c| c.map(|c| c.interference));
+        let found = |x: &Transform| capsule_frustum(&a.carried(x), &b).map(|c| c.map(|c| c.interference));
         for end in 0..3 {
             let Some(contact) = found(&x)[end] else { continue };
             let Interference { depth, normal_b, deepest_b, feature } = contact;
             let carried = a.carried(&x);
             let of_a = AtContact::new(PrimitiveRef::Capsule(&carried), deepest_b, -normal_b);
-            let of_b = AtContact::new(PrimitiveRef::Capsule(&b), deepest_b + normal_b * depth, normal_b);
+            let of_b = AtContact::new(PrimitiveRef::Cylinder(&b), deepest_b + normal_b * depth, normal_b);
             let (sa, sb) = (of_a.shape_of_a(false).unwrap(), of_b.shape_of_b(feature).unwrap());
             let touch = Touch { normal_b, depth, deepest_b };
             let moves = touch.moves(&sa, &sb).unwrap();

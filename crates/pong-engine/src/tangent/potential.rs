@@ -58,7 +58,7 @@ impl Increment {
         self.energy += weight * normal.energy;
         self.slope += (moving.moves.depth * normal.force + of_start * normal.by_start) * weight
             + of_weight * normal.energy;
-        self.curvature += moving.moves.depth.transpose() * moving.moves.depth * (weight * normal.stiffness);
+        self.curvature += moving.pressing.transpose() * moving.pressing * (weight * normal.stiffness);
         self.add_friction(moving, &props.friction, (&travel.across_b, &travel.across_slopes), step)
     }
 

@@ -39,6 +39,10 @@ impl Slope {
 pub(super) fn weigh(kind_a: PrimitiveKind, contacts: &mut [Moving<'_>]) -> Option<()> {
     let kind_b = contacts[0].contact.found.kind_b;
     let two_ended = matches!(kind_a, Capsule | LineSegment);
+    // The derivatives of the weights of two capsules come with those of their places.
+    if two_ended && kind_b == Capsule {
+        return Some(());
+    }
     let on_flat = matches!(kind_b, Polyhedron | Triangle);
     if two_ended && !on_flat && !contacts[0].contact.found.shares {
         weigh_overlap(contacts);

@@ -358,10 +358,27 @@ fn rods_around_round_parts() {
         (PIN, line, lying, 0.08, 0.1),
         (PIN, short, over_an_end, 0.2, 0.3),
         (PLUG, long, over_an_end, 0.2, 0.3),
-        (LOG, short, over_an_end, 0.2, 0.3),
     ] {
         let (rod, of) = (model("rod", &elastic(), rod), model("part", &elastic(), part));
         check_closed_paths(part, &rod, &of, (center, size, turn), Allowed::Nothing);
+    }
+}
+
+/// Lying, over an end, on a tip, deep, and with turns through square axes beside the ends.
+#[test]
+fn rods_around_capsules() {
+    let rod = |half: f64| format!("Capsule(name: \"l\", ends: ((-{half},0,0),({half},0.1,0)), radius: 0.1)");
+    let line = "LineSegment(name: \"l\", ends: ((-0.9,0,0),(0.9,0.1,0)))".to_owned();
+    let log = model("log", &elastic(), LOG);
+    let (lying, over_an_end) = (Vec3::new(0.1, 0.0, 0.35), Vec3::new(0.45, 0.1, 0.3));
+    for (name, rod, center, size, turn) in [
+        ("a segment on a log", line, lying, 0.08, 2.0),
+        ("a long rod on a log", rod(0.9), lying, 0.1, 2.0),
+        ("a rod over an end", rod(0.3), over_an_end, 0.2, 2.0),
+        ("a rod deep in a log", rod(0.5), Vec3::zeros(), 0.3, 1.0),
+    ] {
+        let rod = model("rod", &elastic(), &rod);
+        check_closed_paths(name, &rod, &log, (center, size, turn), Allowed::Nothing);
     }
 }
 

@@ -357,3 +357,23 @@ fn the_rim_of_a_plate_pushes_what_is_in_its_plane_once() {
         }
     }
 }
+
+/// A rod that lies on another one is held at both ends of the overlap: turned about the normal by θ it is turned back
+/// by ½k_t·(½L)²·θ at each of the two.
+#[test]
+fn a_rod_that_lies_on_another_resists_turning_about_the_normal() {
+    let rubber = surface(K, "friction: Bristle(mu: 1.0, stiffness: 6e3, damping: 0)");
+    let rod = "Capsule(name: \"c\", ends: ((-0.4,0,0),(0.4,0,0)), radius: 0.1)";
+    let log = "Capsule(name: \"l\", ends: ((-0.9,0,0),(0.9,0,0)), radius: 0.2)";
+    let mut rig = Rig::new(&model("rod", &rubber, rod), &model("log", &rubber, log));
+    let height = Vec3::z() * 0.28;
+    rig.place_a(height, Quat::identity());
+    rig.world.step().unwrap();
+    let angle = 1e-4;
+    rig.place_a(height, Quat::from_scaled_axis(Vec3::z() * angle));
+    rig.world.evaluate().unwrap();
+    // Two equal bristles in series.
+    let expected = -2.0 * 0.5 * 3e3 * 0.4 * 0.4 * angle;
+    let found = rig.wrench(0).moment.z;
+    assert!((found / expected - 1.0).abs() < 1e-3, "{found} for {expected}");
+}

@@ -150,8 +150,8 @@ fn known_limits_are_noted_by_the_kinds_that_meet() {
     let corner = "Point(name: \"t\", position: (1,0,0))";
     let cornered = format!("{corner}, {solid}");
     for (a, b, expected) in [
-        (capsule, capsule, vec![(1, "a Capsule, b Capsule"), (1, "b Capsule, a Capsule")]),
-        (bar, capsule, vec![(1, "a LineSegment, b Capsule")]),
+        (capsule, capsule, vec![]),
+        (bar, capsule, vec![]),
         (&*pin(1.0), bar, vec![(2, "b LineSegment, a Cylinder")]),
         (capsule, &cone(0.05), vec![(2, "a Capsule, b Cone")]),
         (solid, capsule, vec![(2, "b Capsule, a Polyhedron")]),

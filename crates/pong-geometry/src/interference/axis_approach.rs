@@ -21,58 +21,14 @@ pub(crate) struct Approach {
     pub feature: Feature,
 }
 
-/// Round convex solid (B), tested against a segment (A) or the axis of a round part (A).
-pub(crate) trait RoundSolid {
-    /// Returns the point of the solid's surface nearest to the segment's end `end`.
-    fn nearest(&self, end: usize, segment: &[Vec3; 2]) -> Nearest;
-
-    /// Returns the distance or the minimum translation between a segment and the solid.
-    fn approach(&self, segment: &[Vec3; 2]) -> Approach;
-
-    /// Returns the distance or the minimum translation between a segment and the solid's end `end`: the ball
-    /// of a capsule, or the disc of a cylinder or cone. `None` if their distance certainly exceeds `reach`
-    /// (m).
-    fn approach_end(&self, end: usize, segment: &[Vec3; 2], reach: f64) -> Option<Approach>;
-
-    /// Returns the vector from the solid's end 0 to its end 1, of any length.
-    fn axis(&self) -> Vec3;
-}
-
-impl RoundSolid for Capsule {
-    fn nearest(&self, end: usize, segment: &[Vec3; 2]) -> Nearest {
-        self.nearest_of(&segment[end], segment)
-    }
-
-    fn approach(&self, segment: &[Vec3; 2]) -> Approach {
-        let at = nearest_to_segment(segment, &self.ends);
+impl Capsule {
+    /// Returns the distance or the minimum translation between a segment and the capsule.
+    pub(crate) fn approach(&self, segment: &[Vec3; 2]) -> Approach {
+        let [at, _] = nearest_of_segments(segment, &self.ends);
         let Nearest { distance, normal_b, feature } = self.nearest_of(&at, segment);
         Approach { distance, normal_b, place_b: at, feature }
     }
 
-    fn approach_end(&self, end: usize, segment: &[Vec3; 2], _reach: f64) -> Option<Approach> {
-        let center = self.ends[end];
-        let place = nearest_on_segment(&center, segment);
-        let arm = place - center;
-        let distance = arm.norm();
-        let normal = if self.is_in_axis(distance, &place) {
-            self.across(segment).unwrap_or_else(|| any_perpendicular(&(segment[1] - segment[0]).normalize()))
-        } else {
-            (arm / distance).normalize()
-        };
-        Some(Approach {
-            distance: distance - self.radius,
-            normal_b: normal,
-            place_b: place,
-            feature: Feature::WHOLE,
-        })
-    }
-
-    fn axis(&self) -> Vec3 {
-        self.ends[1] - self.ends[0]
-    }
-}
-
-impl Capsule {
     /// Returns the point of the capsule's surface nearest to the point `place` of a segment. If `place` lies
     /// on the capsule's axis, all directions around the axis are equally near. The normal is then
     /// perpendicular to both the axis and the segment, unless these are parallel.
@@ -92,28 +48,28 @@ impl Capsule {
     /// Returns the unit vector perpendicular to the segment and to the capsule's axis; `None` if the two are
     /// parallel.
     fn across(&self, segment: &[Vec3; 2]) -> Option<Vec3> {
-        let along = [segment[1] - segment[0], self.axis()];
+        let along = [segment[1] - segment[0], self.ends[1] - self.ends[0]];
         let across = along[0].cross(&along[1]);
         let least = f64::EPSILON * along[0].norm_squared() * along[1].norm_squared();
         (across.norm_squared() > least).then(|| across.normalize())
     }
 }
 
-/// Returns the point of a segment nearest to another segment. For parallel segments, it is any of the nearest
-/// points.
-fn nearest_to_segment(segment: &[Vec3; 2], other: &[Vec3; 2]) -> Vec3 {
-    let mut best = (f64::INFINITY, segment[0]);
-    let mut offer = |place: Vec3, on_other: &Vec3| {
+/// Returns the points of two segments nearest to each other. For parallel segments, it is any two of the
+/// nearest points.
+pub(super) fn nearest_of_segments(segment: &[Vec3; 2], other: &[Vec3; 2]) -> [Vec3; 2] {
+    let mut best = (f64::INFINITY, [segment[0], other[0]]);
+    let mut offer = |place: Vec3, on_other: Vec3| {
         let square = (place - on_other).norm_squared();
         if square < best.0 {
-            best = (square, place);
+            best = (square, [place, on_other]);
         }
     };
     if let Some((place, on_other)) = common_perpendicular(segment, other) {
-        offer(place, &on_other);
+        offer(place, on_other);
     }
-    segment.iter().for_each(|end| offer(*end, &nearest_on_segment(end, other)));
-    other.iter().for_each(|end| offer(nearest_on_segment(end, segment), end));
+    segment.iter().for_each(|end| offer(*end, nearest_on_segment(end, other)));
+    other.iter().for_each(|end| offer(nearest_on_segment(end, segment), *end));
     best.1
 }
 
@@ -132,12 +88,9 @@ fn common_perpendicular(segment: &[Vec3; 2], other: &[Vec3; 2]) -> Option<(Vec3,
     (inside(share) && inside(share_other)).then(|| (segment[0] + u * share, other[0] + v * share_other))
 }
 
-impl RoundSolid for Frustum {
-    fn nearest(&self, end: usize, segment: &[Vec3; 2]) -> Nearest {
-        of_frustum(&segment[end], self)
-    }
-
-    fn approach(&self, segment: &[Vec3; 2]) -> Approach {
+impl Frustum {
+    /// Returns the distance or the minimum translation between a segment and the frustum.
+    pub(crate) fn approach(&self, segment: &[Vec3; 2]) -> Approach {
         /// Largest distance at which a segment counts as overlapping, relative to the frustum's size. Not
         /// zero, because distances from a disc (a frustum without length) are never negative.
         const INSIDE: f64 = 1e-13;
@@ -150,7 +103,9 @@ impl RoundSolid for Frustum {
         TranslationSearch::new(segment, self).shortest()
     }
 
-    fn approach_end(&self, end: usize, segment: &[Vec3; 2], reach: f64) -> Option<Approach> {
+    /// Returns the distance or the minimum translation between a segment and the disc at the frustum's end
+    /// `end`. `None` if their distance certainly exceeds `reach` (m).
+    pub(crate) fn approach_end(&self, end: usize, segment: &[Vec3; 2], reach: f64) -> Option<Approach> {
         /// Margin relative to the coordinates, far above rounding.
         const SLACK: f64 = 1e-9;
         let (center, disc) = (self.ends[end], self.disc(end));
@@ -168,10 +123,6 @@ impl RoundSolid for Frustum {
             }
         }
         Some(disc.approach(segment))
-    }
-
-    fn axis(&self) -> Vec3 {
-        self.axis
     }
 }
 

@@ -51,6 +51,7 @@ pub mod sphere_triangle_pairs;
 pub mod triangle_features;
 mod triangle_lanes;
 mod triangle_reach;
+pub mod two_capsules;
 pub mod two_ended_bore;
 pub mod two_ended_round;
 pub mod two_frusta;

@@ -1,6 +1,6 @@
 //! Gap between a round solid and a point, a segment or the axis of a round part (docs/theory.md, 2.9).
 
-use super::axis_approach::{Approach, RoundSolid};
+use super::axis_approach::Approach;
 use super::round_surface::{Nearest, of_capsule, of_frustum};
 use crate::Vec3;
 use crate::primitive::{Capsule, Frustum, Gap, Round};

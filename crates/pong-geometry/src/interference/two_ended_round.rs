@@ -1,5 +1,5 @@
-//! Line segment and capsule (A) – capsule, cylinder and cone (B) (docs/theory.md, 2.8): half a spring acts at
-//! each end of the overlap.
+//! Line segment and capsule (A) – cylinder and cone (B) (docs/theory.md, 2.8): half a spring acts at each end of
+//! the overlap.
 //!
 //! An end of the overlap is an end of A in B or an end of B in A, whichever is deeper. Let k be the
 //! stiffness, δ the depth of the pair, and δ₀ and δ₁ the depths at the two ends of the overlap. The stored
@@ -7,8 +7,9 @@
 //! deepest point, ½δ₁²/δ² at end 0 and ½δ₀²/δ² at end 1.
 
 use super::Interference;
-use super::axis_approach::{Approach, RoundSolid};
+use super::axis_approach::Approach;
 use super::ball_round::pressed;
+use super::round_surface::of_frustum;
 use crate::Vec3;
 use crate::primitive::{Capsule, Frustum, LineSegment};
 
@@ -17,26 +18,16 @@ use crate::primitive::{Capsule, Frustum, LineSegment};
 pub struct EndContact {
     /// Point, normal and depth.
     pub interference: Interference,
-    /// Fraction of half a spring that acts in this contact, 0…1.
+    /// Part of half a spring that acts in this contact: 0…1, or 0…2 between two capsules.
     pub share: f64,
 }
 
 /// Contacts of a segment or a capsule: at its end 0, at its end 1, and at the deepest point.
 pub type EndContacts = [Option<EndContact>; 3];
 
-/// Tests a segment against a capsule.
-pub fn segment_capsule(segment: &LineSegment, capsule: &Capsule) -> EndContacts {
-    two_ended(&segment.ends, 0.0, capsule)
-}
-
 /// Tests a segment against a cylinder or a cone.
 pub fn segment_frustum(segment: &LineSegment, frustum: &Frustum) -> EndContacts {
     two_ended(&segment.ends, 0.0, frustum)
-}
-
-/// Tests a capsule against a capsule.
-pub fn capsule_capsule(a: &Capsule, b: &Capsule) -> EndContacts {
-    two_ended(&a.ends, a.radius, b)
 }
 
 /// Tests a capsule against a cylinder or a cone.
@@ -44,11 +35,11 @@ pub fn capsule_frustum(capsule: &Capsule, frustum: &Frustum) -> EndContacts {
     two_ended(&capsule.ends, capsule.radius, frustum)
 }
 
-fn two_ended(ends: &[Vec3; 2], radius: f64, solid: &impl RoundSolid) -> EndContacts {
+fn two_ended(ends: &[Vec3; 2], radius: f64, solid: &Frustum) -> EndContacts {
     let Some(deepest) = touched(&solid.approach(ends), radius) else { return [None; 3] };
-    let same_way = (ends[1] - ends[0]).dot(&solid.axis()) >= 0.0;
+    let same_way = (ends[1] - ends[0]).dot(&solid.axis) >= 0.0;
     let at_end = |end: usize| {
-        let own = pressed(&ends[end], radius, &solid.nearest(end, ends));
+        let own = pressed(&ends[end], radius, &of_frustum(&ends[end], solid));
         let end_of_solid = if same_way { end } else { 1 - end };
         let approach = solid.approach_end(end_of_solid, ends, radius);
         let other = approach.and_then(|approach| touched(&approach, radius));

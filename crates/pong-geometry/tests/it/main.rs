@@ -40,4 +40,5 @@ mod round_support;
 mod segment_all_faces;
 mod segment_grazing;
 mod sphere_triangle_pairs;
+mod two_capsules;
 mod two_frusta;

@@ -6,8 +6,9 @@ use crate::round_support::Solid;
 use pong_geometry::bounding::Bounded;
 use pong_geometry::interference::Interference;
 use pong_geometry::interference::ball_round::{ball_capsule, ball_frustum};
+use pong_geometry::interference::two_capsules::{OverlapContacts, capsule_capsule, segment_capsule};
 use pong_geometry::interference::two_ended_round::{
-    EndContacts, capsule_capsule, capsule_frustum, segment_capsule, segment_frustum,
+    EndContact, EndContacts, capsule_frustum, segment_frustum,
 };
 use pong_geometry::primitive::{Capsule, Frustum, LineSegment, Sphere};
 use pong_geometry::{Transform, Vec3};
@@ -50,9 +51,9 @@ impl Solid {
     fn touch_rod(&self, rod: &Capsule) -> EndContacts {
         let segment = LineSegment { ends: rod.ends };
         match (self, rod.radius > 0.0) {
-            (Self::Capsule(capsule), true) => capsule_capsule(rod, capsule),
+            (Self::Capsule(capsule), true) => with_none(capsule_capsule(rod, capsule)),
             (Self::Frustum(frustum), true) => capsule_frustum(rod, frustum),
-            (Self::Capsule(capsule), false) => segment_capsule(&segment, capsule),
+            (Self::Capsule(capsule), false) => with_none(segment_capsule(&segment, capsule)),
             (Self::Frustum(frustum), false) => segment_frustum(&segment, frustum),
         }
     }
@@ -63,6 +64,10 @@ impl Solid {
             Self::Frustum(frustum) => ball_frustum(ball, frustum),
         }
     }
+}
+
+fn with_none([first, second]: OverlapContacts) -> EndContacts {
+    [first, second, None]
 }
 
 fn random_rod(random: &mut Random, solid: &Solid) -> Capsule {
@@ -112,12 +117,8 @@ fn deepest(contacts: &EndContacts) -> f64 {
 
 /// Energy with a stiffness of 1 N/m.
 fn energy(contacts: &EndContacts) -> f64 {
-    let depth = deepest(contacts);
-    if depth == 0.0 {
-        return 0.0;
-    }
-    let square = |end: usize| contacts[end].map_or(0.0, |contact| contact.interference.depth.powi(2));
-    0.25 * (depth * depth + square(0) * square(1) / (depth * depth))
+    let stored = |contact: &EndContact| 0.25 * contact.share * contact.interference.depth.powi(2);
+    contacts.iter().flatten().map(stored).sum()
 }
 
 /// Force and moment about a point, with a stiffness of 1 N/m.
@@ -140,11 +141,7 @@ fn a_rod_on_the_axis_of_a_solid_leaves_it_by_the_shortest_way() {
         let (length, place) = (random.between(0.2, 1.5), random.between(-1.0, 1.0));
         let ends = [axis * place, axis * (place + length)];
         let radii = [random.between(0.05, 1.0), random.between(0.0, 1.0)];
-        let solid = if case % 4 == 0 {
-            Solid::Capsule(Capsule { ends, radius: radii[0] })
-        } else {
-            Solid::Frustum(Frustum::new(ends, radii))
-        };
+        let solid = Solid::Frustum(Frustum::new(ends, radii));
         let [one, other] = [(); 2].map(|()| axis * (place + length * random.between(-0.4, 1.4)));
         let rod = Capsule {
             ends: [one, other],
@@ -181,13 +178,16 @@ fn a_rod_on_the_axis_of_a_solid_leaves_it_by_the_shortest_way() {
     assert!(through_wall > 20, "{through_wall}");
 }
 
-/// The depth of the pair is the minimum translation, for any depth and any feature.
+/// The depth in a cylinder or a cone is the minimum translation, for any depth and any feature.
 #[test]
 fn depths_are_the_least_translation_that_separates() {
     let mut random = Random::new(1, 0, 0);
     let mut touching = 0;
-    for case in 0..long_samples(40, 100) {
+    for case in 0..long_samples(60, 150) {
         let solid = random_solid(&mut random);
+        if matches!(solid, Solid::Capsule(_)) {
+            continue;
+        }
         let rod = random_rod(&mut random, &solid);
         let searched = depth_by_search(&rod, &solid);
         let contacts = solid.touch_rod(&rod);
@@ -340,13 +340,12 @@ fn scale_changes_nothing_but_lengths() {
     }
 }
 
-/// A rod that lies flat carries kδ, whatever overhangs; on one end or across, half of it along the minimum
+/// A rod that lies flat on a cylinder carries kδ, whatever overhangs; on one end or across, half of it along the minimum
 /// translation.
 #[test]
 fn a_rod_that_lies_flat_carries_its_spring_and_a_tip_half_of_it() {
     let mut random = Random::new(6, 0, 0);
     let cylinder = Frustum::new([Vec3::zeros(), Vec3::x()], [0.3; 2]);
-    let log = Capsule { ends: [Vec3::zeros(), Vec3::x()], radius: 0.3 };
     let depth = 1e-3;
     for _ in 0..500 {
         let x = random_motion(&mut random, 3.0);
@@ -355,14 +354,12 @@ fn a_rod_that_lies_flat_carries_its_spring_and_a_tip_half_of_it() {
             let (from, to) = (from + random.between(-0.05, 0.05), to + random.between(-0.05, 0.05));
             let rod =
                 Capsule { ends: [Vec3::new(from, 0.0, height), Vec3::new(to, 0.0, height)], radius: 0.1 };
-            for solid in [Solid::Frustum(cylinder), Solid::Capsule(log)] {
-                let contacts = solid.carried(&x).touch_rod(&rod.carried(&x));
-                let (force, moment) = wrench(&contacts, &x.point(&Vec3::zeros()));
-                assert!((force.norm() - depth).abs() < 1e-12, "{from} {to} {}", force.norm());
-                let middle = 0.5 * (f64::max(from, 0.0) + f64::min(to, 1.0));
-                let lever = x.rotation.tr_mul(&moment).dot(&-Vec3::y()) / force.norm();
-                assert!((lever - middle).abs() < 1e-9, "{lever} {middle}");
-            }
+            let contacts = Solid::Frustum(cylinder).carried(&x).touch_rod(&rod.carried(&x));
+            let (force, moment) = wrench(&contacts, &x.point(&Vec3::zeros()));
+            assert!((force.norm() - depth).abs() < 1e-12, "{from} {to} {}", force.norm());
+            let middle = 0.5 * (f64::max(from, 0.0) + f64::min(to, 1.0));
+            let lever = x.rotation.tr_mul(&moment).dot(&-Vec3::y()) / force.norm();
+            assert!((lever - middle).abs() < 1e-9, "{lever} {middle}");
         }
         let tip = Vec3::new(random.between(0.3, 0.7), 0.0, height);
         for rod in [
@@ -489,23 +486,5 @@ fn a_rod_sunk_in_along_an_end_face_is_held_over_its_middle() {
         assert!((depth - sunk - rod.radius).abs() < 1e-12, "case {case}: {depth} for {sunk}");
         let held = deepest_b + normal_b * rod.radius;
         assert!((held - x.point(&middle)).norm() < 1e-9, "case {case}: {held}, not {}", x.point(&middle));
-    }
-}
-
-/// If an axis passes through the end of another, the normal is perpendicular to both, and rotates with them.
-#[test]
-fn an_axis_through_the_end_of_another_leaves_across_both() {
-    let mut random = Random::new(9, 0, 0);
-    let (log, rod) = (
-        Capsule { ends: [Vec3::zeros(), Vec3::x()], radius: 0.1 },
-        Capsule { ends: [Vec3::new(-0.3, 0.4, 0.5), Vec3::new(0.3, -0.4, -0.5)], radius: 0.05 },
-    );
-    let across = Vec3::x().cross(&rod.ends[1]).normalize();
-    for _ in 0..500 {
-        let x = random_motion(&mut random, 3.0);
-        for contact in capsule_capsule(&rod.carried(&x), &log.carried(&x)).iter().flatten() {
-            let cosine = (x.rotation * across).dot(&contact.interference.normal_b);
-            assert!((cosine.abs() - 1.0).abs() < 1e-12, "{contact:?}");
-        }
     }
 }

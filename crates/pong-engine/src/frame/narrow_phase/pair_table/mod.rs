@@ -47,9 +47,8 @@ use pong_geometry::interference::round_plane::{capsule_plane, frustum_plane};
 use pong_geometry::interference::sphere_ellipsoid::sphere_ellipsoid;
 use pong_geometry::interference::sphere_plane::sphere_plane;
 use pong_geometry::interference::sphere_sphere::sphere_sphere;
-use pong_geometry::interference::two_ended_round::{
-    capsule_capsule, capsule_frustum, segment_capsule, segment_frustum,
-};
+use pong_geometry::interference::two_capsules::{capsule_capsule, segment_capsule};
+use pong_geometry::interference::two_ended_round::{capsule_frustum, segment_frustum};
 use pong_geometry::interference::two_frusta::two_frusta;
 use pong_geometry::primitive::PrimitiveKind::{self, *};
 
@@ -109,7 +108,7 @@ const ROWS: &[KindPair] = &[
     row(Point, Bore, ball_in_bore, 30, 1),
     row(LineSegment, Polyhedron, line_segment_polyhedron, 50, 2),
     row(LineSegment, Plane, by!(Segment, planes, line_segment_plane, emit_halves), 50, 2),
-    row(LineSegment, Capsule, by!(Segment, capsules, segment_capsule, emit_shares), 100, 3),
+    row(LineSegment, Capsule, by!(Segment, capsules, segment_capsule, emit_shares), 100, 2),
     row(LineSegment, Cylinder, by!(Segment, frusta, segment_frustum, emit_shares), 1000, 3),
     row(LineSegment, Cone, by!(Segment, frusta, segment_frustum, emit_shares), 1000, 3),
     row(LineSegment, Bore, axis_in_bore, 1000, 2),
@@ -141,7 +140,7 @@ const ROWS: &[KindPair] = &[
     row(Capsule, Triangle, capsule_triangle, 2000, 10),
     row(Capsule, Polyhedron, capsule_polyhedron, 500, 10),
     row(Capsule, Plane, by!(Capsule, planes, capsule_plane, emit_halves), 50, 2),
-    row(Capsule, Capsule, by!(Capsule, capsules, capsule_capsule, emit_shares), 100, 3),
+    row(Capsule, Capsule, by!(Capsule, capsules, capsule_capsule, emit_shares), 100, 2),
     row(Capsule, Cylinder, by!(Capsule, frusta, capsule_frustum, emit_shares), 1000, 3),
     row(Capsule, Cone, by!(Capsule, frusta, capsule_frustum, emit_shares), 1000, 3),
     row(Capsule, Bore, axis_in_bore, 1000, 4),

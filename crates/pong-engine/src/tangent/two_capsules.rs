@@ -1,0 +1,160 @@
+//! Motion of the contacts of a segment or a capsule with a capsule (docs/theory.md, 2.8 and 7).
+//!
+//! The places x of the load on the two axes follow from slopes that are zero, G(x, q) = 0, where q is the relative
+//! pose: dx = −(∂G/∂x)⁻¹·∂G/∂q. A place at an end of an axis stays there.
+
+use super::moves::Moves;
+use nalgebra::{Matrix3x6, RowVector6};
+use pong_geometry::interference::two_capsules::{Load, TwoAxes};
+use pong_geometry::pose::{displacement_slopes, turn_slopes};
+use pong_geometry::{Mat3, Vec3};
+
+/// Derivatives of one of the two contacts with respect to (u, φ).
+pub(super) struct MovesAtEnd {
+    pub moves: Moves,
+    /// Depth by the motion of A at the contact alone.
+    pub pressing: RowVector6<f64>,
+    /// Weight.
+    pub weight: RowVector6<f64>,
+}
+
+/// Returns the derivatives of the contact at end `end` of the overlap; `radius` is that of A. `None` where the axes
+/// cross, which leaves the normal undetermined.
+pub(super) fn moves_at_end(axes: &TwoAxes, radius: f64, end: usize) -> Option<MovesAtEnd> {
+    /// Distance of the axes, relative to the depth, below which most digits of the normal are rounding.
+    const CROSSING: f64 = 1e-9;
+    let load = axes.load()?;
+    let Load { at, distance, depth, normal_b: normal, spread } = load;
+    if distance < CROSSING * depth {
+        return None;
+    }
+    let [along, back] = axes.along_b;
+    let in_plane = Mat3::identity() - normal * normal.transpose();
+    let carried = displacement_slopes(&axes.place_a(at[0]));
+    let held = Held { normal: in_plane * carried / distance, depth: -(normal.transpose() * carried) };
+    let pull = |k: usize| held.depth * (2.0 * at[k] / spread);
+    let slopes = [
+        along.transpose() * held.normal + normal.transpose() * turn_slopes(&along) + pull(0),
+        back.transpose() * held.normal + pull(1),
+    ];
+    let places = follow(&load.curvature(axes), &at, &slopes);
+    let vector = carried + along * places[0] + back * places[1];
+    let turned = in_plane * vector / distance;
+    let spreads = (places[0] * at[0] + places[1] * at[1]) * 4.0;
+
+    let overlap = axes.overlap(&load);
+    let of_overlap = overlap.map(|place| of_end_of_overlap(axes, &along, place));
+    let (length, lengthens) = (overlap[1] - overlap[0], of_overlap[1] - of_overlap[0]);
+    // The share of this end is its lever over the length of the overlap.
+    let (share, of_share) = if length > 0.0 {
+        let other = 1 - end;
+        let sign = if end == 1 { 1.0 } else { -1.0 };
+        let share = sign * (at[0] - overlap[other]) / length;
+        (share, ((places[0] - of_overlap[other]) * sign - lengthens * share) / length)
+    } else {
+        (0.5, RowVector6::zeros())
+    };
+    let at_contact = displacement_slopes(&axes.place_a(overlap[end]));
+    let deepest = at_contact + along * of_overlap[end] - turned * radius;
+    Some(MovesAtEnd {
+        pressing: -(normal.transpose() * at_contact),
+        moves: Moves { depth: -(normal.transpose() * vector), normal: turned, deepest },
+        weight: (of_share - spreads * (share / spread)) * (2.0 / spread),
+    })
+}
+
+/// Derivatives of the load with its places held.
+struct Held {
+    normal: Matrix3x6<f64>,
+    depth: RowVector6<f64>,
+}
+
+/// Derivatives of the places of the load.
+fn follow(curvature: &[[f64; 2]; 2], at: &[f64; 2], slopes: &[RowVector6<f64>; 2]) -> [RowVector6<f64>; 2] {
+    let [[own, cross], [_, other]] = *curvature;
+    let none = RowVector6::zeros();
+    match at.map(|place| place.abs() < 0.5) {
+        [true, true] => {
+            let square = own * other - cross * cross;
+            [(slopes[1] * cross - slopes[0] * other) / square, (slopes[0] * cross - slopes[1] * own) / square]
+        }
+        [true, false] => [-slopes[0] / own, none],
+        [false, true] => [none, -slopes[1] / other],
+        [false, false] => [none; 2],
+    }
+}
+
+/// Derivatives of the place where A's axis leaves the reach of B.
+fn of_end_of_overlap(axes: &TwoAxes, along: &Vec3, place: f64) -> RowVector6<f64> {
+    let away = axes.away_at(place);
+    let rate = away.dot(along);
+    if place.abs() >= 0.5 || rate == 0.0 {
+        return RowVector6::zeros();
+    }
+    -(away.transpose() * displacement_slopes(&axes.place_a(place))) / pong_geometry::divisor(rate)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use pong_geometry::interference::two_capsules::capsule_capsule;
+    use pong_geometry::interference::two_ended_round::EndContact;
+    use pong_geometry::primitive::Capsule;
+    use pong_geometry::{Quat, Transform};
+    use pong_testkit::Random;
+
+    fn moved(a: &Capsule, k: usize, by: f64) -> Capsule {
+        let t = Vec3::ith(k % 3, by);
+        let (shift, turn) =
+            if k < 3 { (t, Quat::identity()) } else { (Vec3::zeros(), Quat::from_scaled_axis(t)) };
+        a.carried(&Transform { rotation: turn.to_rotation_matrix().into_inner(), translation: shift })
+    }
+
+    /// Depth, normal, place and weight against central differences of the tester: in the middle of both axes, with
+    /// places at ends, and with the overlap at ends.
+    #[test]
+    fn moves_of_two_capsules() {
+        const STEP: f64 = 1e-5;
+        let mut random = Random::new(8, 0, 0);
+        let mut compared = 0;
+        for case in 0..2000 {
+            let radii = [random.between(0.05, 0.3), random.between(0.05, 0.3)];
+            let (u, v) = (random.vector(0.6), random.vector(0.6));
+            let middle = u * random.between(-1.1, 1.1)
+                + v * random.between(-1.1, 1.1)
+                + random.direction() * (0.95 * (radii[0] + radii[1]));
+            let b = Capsule { ends: [-v, v], radius: radii[1] };
+            let a = Capsule { ends: [middle - u, middle + u], radius: radii[0] };
+            let found = |by: f64, k: usize| capsule_capsule(&moved(&a, k, by), &b);
+            for end in 0..2 {
+                let Some(here) = found(0.0, 0)[end] else { continue };
+                let axes = TwoAxes::new(&a.ends, a.radius, &b);
+                let Some(known) = moves_at_end(&axes, a.radius, end) else { continue };
+                for k in 0..6 {
+                    let sides = [-2.0, -1.0, 1.0, 2.0].map(|side| found(side * STEP, k)[end]);
+                    let [Some(low), Some(less), Some(more), Some(high)] = sides else { continue };
+                    let slope = |of: &dyn Fn(&EndContact) -> f64| {
+                        (8.0 * (of(&more) - of(&less)) - (of(&high) - of(&low))) / (12.0 * STEP)
+                    };
+                    let halves = [&high, &low].map(|side| (side.share - here.share).abs());
+                    let bends = (halves[0] - halves[1]).abs() > 0.1 * (halves[0] + halves[1]);
+                    if here.interference.depth < 0.02 || bends {
+                        continue;
+                    }
+                    let place = |axis: usize| slope(&|c| c.interference.deepest_b[axis]);
+                    let normal = |axis: usize| slope(&|c| c.interference.normal_b[axis]);
+                    let off = [
+                        known.moves.depth[k] - slope(&|c| c.interference.depth),
+                        known.weight[k] - slope(&|c| c.share),
+                        (known.moves.normal.column(k) - Vec3::from([0, 1, 2].map(normal))).norm(),
+                        (known.moves.deepest.column(k) - Vec3::from([0, 1, 2].map(place))).norm(),
+                    ];
+                    let limit = 1e-4 * (1.0 + known.weight.amax() + known.moves.deepest.amax());
+                    assert!(off.iter().all(|off| off.abs() < limit), "case {case}, {end}, {k}: {off:?}");
+                    compared += 1;
+                }
+            }
+        }
+        assert!(compared > 2000, "{compared}");
+    }
+}
