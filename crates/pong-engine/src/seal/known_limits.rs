@@ -51,6 +51,14 @@ const LIMITS: &[KnownLimit] = &[
                of how the face is cut: steps of up to 0.35·kδ; make what lies over edges of several capsules",
     },
     KnownLimit {
+        a: &[Cylinder, Cone],
+        b: &[Polyhedron, Triangle],
+        may_show: always,
+        text: "a side that lies flat over an edge has half of the stiffness, at a disc or at the edge by the sign of a tilt; a flat \
+               end that overhangs steps by ½kδ as its rim passes the edge, and feels no corner of a mesh inside its rim; keep \
+               wheels on their ground, and axes above edges",
+    },
+    KnownLimit {
         a: &[LineSegment],
         b: &[Polyhedron],
         may_show: always,

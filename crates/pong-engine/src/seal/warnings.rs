@@ -33,6 +33,31 @@ pub enum SetupWarning {
     },
 }
 
+/// Reason why two built-in kinds, in alphabetical order, do not touch, with what to take instead (docs/theory.md, 2).
+/// `None` for kinds of a host.
+fn why_apart(kinds: [&str; 2]) -> Option<&'static str> {
+    const THIN: [&str; 3] = ["LineSegment", "Point", "Ray"];
+    const SURFACES: [&str; 3] = ["Plane", "Polyhedron", "Triangle"];
+    let are = |of: [&str; 3]| kinds.iter().all(|kind| of.contains(kind));
+    match kinds {
+        ["Bore", "Bore"] => Some("both push inwards"),
+        ["Bore", _] => Some(
+            "a Bore holds Point, LineSegment, Ray, Sphere, Capsule and Cylinder; make the other of these, or both of them solids",
+        ),
+        ["LineSegment" | "Point", "Triangle"] => Some(
+            "a triangle has no inside, so no depth can be defined; give the other a radius: Sphere or Capsule",
+        ),
+        ["Ellipsoid", "LineSegment"] | ["LineSegment", "Sphere"] => {
+            Some("a LineSegment has no radius here; take a Capsule")
+        }
+        _ if are(THIN) => Some("neither has an inside; take a Sphere or a Capsule"),
+        _ if are(SURFACES) => {
+            Some("both are surfaces; declare them solids (`contact: Solid`), or give one points")
+        }
+        _ => None,
+    }
+}
+
 impl std::fmt::Display for SetupWarning {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
@@ -40,7 +65,8 @@ impl std::fmt::Display for SetupWarning {
                 write!(
                     f,
                     "models `{a}` and `{b}`: {kind_a} and {kind_b} have no tester and ignore each other ({met})"
-                )
+                )?;
+                why_apart([kind_a, kind_b]).map_or(Ok(()), |why| write!(f, ": {why}"))
             }
             Self::NothingToTest { models: [a, b], met, testable } => {
                 write!(

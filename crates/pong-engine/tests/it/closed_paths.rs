@@ -187,6 +187,77 @@ fn ellipsoid_around_a_box() {
     );
 }
 
+/// The path leads the ellipsoid over the end, the rim and the side of the body.
+fn ellipsoid_around(name: &str, part: &str) {
+    let egg = model("egg", &elastic(), "Ellipsoid(name: \"e\", center: (0,0,0), semi_axes: (0.25,0.15,0.1))");
+    let body = model("body", &elastic(), part);
+    let path = (Vec3::new(0.5, 0.05, 0.33), 0.12, 0.8);
+    check_closed_paths(name, &egg, &body, path, Allowed::Nothing);
+}
+
+#[test]
+fn ellipsoid_around_an_ellipsoid() {
+    ellipsoid_around(
+        "ellipsoid–ellipsoid",
+        "Ellipsoid(name: \"b\", center: (0,0,0), semi_axes: (0.6,0.3,0.4))",
+    );
+}
+
+#[test]
+fn ellipsoid_around_a_capsule() {
+    ellipsoid_around("ellipsoid–capsule", "Capsule(name: \"b\", ends: ((-0.5,0,0),(0.4,0,0)), radius: 0.3)");
+}
+
+#[test]
+fn ellipsoid_around_a_cylinder() {
+    ellipsoid_around(
+        "ellipsoid–cylinder",
+        "Cylinder(name: \"b\", ends: ((-0.5,0,0),(0.5,0,0)), radius: 0.3)",
+    );
+}
+
+#[test]
+fn ellipsoid_around_a_cone() {
+    ellipsoid_around("ellipsoid–cone", "Cone(name: \"b\", ends: ((-0.5,0,0),(0.5,0,0)), radii: (0.5,0.25))");
+}
+
+const WHEEL: &str = "Cylinder(name: \"c\", ends: ((0,-0.15,0),(0,0.15,0)), radius: 0.25)";
+
+#[test]
+fn wheel_around_a_box() {
+    let wheel = model("wheel", &elastic(), WHEEL);
+    let path = (Vec3::new(0.5, 0.1, 0.53), 0.04, 0.05);
+    check_closed_paths("wheel–box", &wheel, &solid(), path, Allowed::Nothing);
+}
+
+#[test]
+fn drum_around_a_roller() {
+    let wheel = model("wheel", &elastic(), WHEEL);
+    let roller =
+        model("roller", &elastic(), "Cylinder(name: \"b\", ends: ((0,-0.4,0),(0,0.1,0)), radius: 0.3)");
+    let path = (Vec3::new(0.0, 0.05, 0.53), 0.04, 0.3);
+    check_closed_paths("cylinder–cylinder", &wheel, &roller, path, Allowed::Nothing);
+}
+
+#[test]
+fn drum_around_a_cone() {
+    let wheel = model("wheel", &elastic(), WHEEL);
+    let cone =
+        model("cone", &elastic(), "Cone(name: \"b\", ends: ((-0.3,0,0),(0.4,0,0)), radii: (0.35,0.25))");
+    let path = (Vec3::new(0.0, 0.05, 0.54), 0.04, 0.3);
+    check_closed_paths("cylinder–cone", &wheel, &cone, path, Allowed::Nothing);
+}
+
+#[test]
+fn wheel_over_a_ridge_of_triangles() {
+    let ridge = "TriangleMesh(name: \"m\", vertices: [(0,-1,0.2),(0,1,0.2),(-1,-1,0),(-1,1,0),(1,-1,-0.1),(1,1,0)], \
+                 triangles: [(2,0,1),(2,1,3),(0,4,5),(0,5,1)])";
+    let ridge = model("ridge", &elastic(), ridge);
+    let wheel = model("wheel", &elastic(), WHEEL);
+    let path = (Vec3::new(0.0, 0.0, 0.44), 0.04, 0.1);
+    check_closed_paths("wheel–ridge", &wheel, &ridge, path, Allowed::Nothing);
+}
+
 #[test]
 fn sphere_in_a_corner_of_triangles() {
     let valley = "TriangleMesh(name: \"m\", vertices: [(0,0,0),(1,0,0.5),(0.8,0.9,0.4),(-0.9,0.6,0.6),(-0.5,-0.9,0.5),(0.7,-0.8,0.7)], \

@@ -47,4 +47,5 @@ mod symptoms;
 mod tangents;
 mod times;
 mod tunnelling;
+mod wheels;
 mod written_tables;

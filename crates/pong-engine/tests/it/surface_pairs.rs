@@ -161,6 +161,8 @@ fn known_limits_are_noted_by_the_kinds_that_meet() {
         (&cone(0.05), FLOOR, vec![]),
         (ball, capsule, vec![]),
         (bar, solid, vec![(1, "a LineSegment, b Polyhedron")]),
+        (&*pin(1.0), solid, vec![(1, "a Cylinder, b Polyhedron")]),
+        (solid, &cone(0.05), vec![(1, "b Cone, a Polyhedron")]),
         (corner, solid, vec![]),
         // Bodies that stack: corners and a solid on both sides.
         (&cornered, &cornered, vec![(1, "a Point, b Polyhedron"), (1, "b Point, a Polyhedron")]),
@@ -215,10 +217,10 @@ fn a_warning_about_two_models_is_told_once() {
         told,
         [
             "models `floor` and `plate`: Plane and Triangle have no tester and ignore each other (`floor` and `plate 0` and \
-             199 more pairs)",
+             199 more pairs): both are surfaces; declare them solids (`contact: Solid`), or give one points",
             "models `floor` and `plate` are paired but nothing of one can touch anything of the other (`floor` and `plate 0` \
              and 199 more pairs): they pass through each other; give one of them what the other can touch; Plane can touch Point, \
-             LineSegment, Ray, Sphere, Ellipsoid, Capsule, Cylinder, Cone; Triangle can touch Ray, Sphere, Ellipsoid, Capsule",
+             LineSegment, Ray, Sphere, Ellipsoid, Capsule, Cylinder, Cone; Triangle can touch Ray, Sphere, Ellipsoid, Capsule, Cylinder, Cone",
         ]
     );
     assert!(matches!(report.warnings[0], SetupWarning::IgnoredPair { .. }));
@@ -227,4 +229,36 @@ fn a_warning_about_two_models_is_told_once() {
         report.untouchable_pairs[..2],
         [["plate 0", "floor"], ["floor", "plate 1"]].map(|pair| pair.map(str::to_owned))
     );
+}
+
+/// Every two built-in kinds without a tester that may be meant say why they ignore each other.
+#[test]
+fn pairs_without_a_tester_say_why() {
+    let parts = [
+        "Point(name: \"p\", position: (0,0,0))",
+        "LineSegment(name: \"l\", ends: ((0,0,0),(1,0,0)))",
+        "Ray(name: \"r\", origin: (0,0,0), direction: (0,0,1), length: 1)",
+        "Sphere(name: \"s\", center: (0,0,0), radius: 1)",
+        "Ellipsoid(name: \"e\", center: (0,0,0), semi_axes: (1,2,3))",
+        "Triangle(name: \"t\", vertices: ((0,0,0),(1,0,0),(0,1,0)))",
+        "Polyhedron(name: \"w\", vertices: [(1,0,0),(0,1,0),(0,0,1),(0,0,0)], faces: [[0,1,2],[0,3,1],[1,3,2],[2,3,0]])",
+        FLOOR,
+        "Capsule(name: \"c\", ends: ((0,0,0),(1,0,0)), radius: 0.1)",
+        "Cylinder(name: \"d\", ends: ((0,0,0),(1,0,0)), radius: 0.1)",
+        "Cone(name: \"k\", ends: ((0,0,0),(1,0,0)), radii: (0.1,0.2))",
+        "Bore(name: \"b\", ends: ((0,0,0),(1,0,0)), radii: (0.1,0.1))",
+    ];
+    let mut ignored = 0;
+    for (index, a) in parts.iter().enumerate() {
+        for b in &parts[index..] {
+            let [a, b] = [("a", a), ("b", b)].map(|(name, part)| model(name, &surface(1e5, ""), part));
+            for warning in seal(&[&a, &b]).unwrap().warnings {
+                if let SetupWarning::IgnoredPair { .. } = &warning {
+                    ignored += 1;
+                    assert!(warning.to_string().contains("): "), "{warning}");
+                }
+            }
+        }
+    }
+    assert!(ignored > 15, "{ignored}");
 }

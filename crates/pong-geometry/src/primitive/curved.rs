@@ -223,8 +223,8 @@ impl Primitive for Ellipsoid {
     }
 }
 
-/// The path of the passing sphere's centre is tested against the larger of the two radii, because a large
-/// sphere can pass through a small one that lies beside the path.
+/// The path of the passing sphere's centre is tested against the larger of the two radii, here and for each semi-axis
+/// of an ellipsoid, because a large sphere can pass through a small one that lies beside the path.
 impl Curved for Sphere {
     fn passed(&self, from: &Vec3, to: &Vec3, radius: f64) -> Option<Vec3> {
         let radius = self.radius.max(radius);
@@ -234,8 +234,8 @@ impl Curved for Sphere {
 }
 
 impl Curved for Ellipsoid {
-    fn passed(&self, from: &Vec3, to: &Vec3, _radius: f64) -> Option<Vec3> {
-        let scale = Mat3::from_diagonal(&self.semi_axes.map(|a| 1.0 / a));
+    fn passed(&self, from: &Vec3, to: &Vec3, radius: f64) -> Option<Vec3> {
+        let scale = Mat3::from_diagonal(&self.semi_axes.map(|a| 1.0 / a.max(radius)));
         let to_axes = scale * self.axes.transpose();
         let unit = |p: &Vec3| to_axes * (p - self.center);
         let at = through_unit_ball(&unit(from), &unit(to))?;

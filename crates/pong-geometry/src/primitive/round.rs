@@ -1,8 +1,11 @@
 //! Round parts: capsule, cylinder, cone and bore (docs/theory.md, 2.8).
 
-use super::facts::{Curved, Drawing, Primitive, Round, Stroke, distance_m, ends_and_middle, on_axis};
+use super::curved::Ellipsoid;
+use super::facts::{
+    Curved, Drawing, Primitive, Round, Stroke, box_around, distance_m, ends_and_middle, on_axis,
+};
 use crate::bounding::{Bounded, Dilated, PointCloud, ball_representatives, largest};
-use crate::{Transform, Vec3};
+use crate::{Mat3, Transform, Vec3};
 use std::borrow::Cow;
 
 /// All points within a radius of a straight segment: a cylinder with a hemisphere at each end.
@@ -91,6 +94,12 @@ impl Frustum {
         self.axis * self.wall[0] + across * (self.wall[1] / across.norm().max(f64::MIN_POSITIVE))
     }
 
+    /// Returns the outward unit normal of the lateral surface on the side to which `side` points, a unit vector
+    /// perpendicular to the axis.
+    pub fn wall_toward(&self, side: &Vec3) -> Vec3 {
+        self.axis * self.wall[0] + side * self.wall[1]
+    }
+
     /// Returns the disc at one end: a frustum of length zero.
     pub fn disc(&self, end: usize) -> Self {
         Self {
@@ -102,16 +111,36 @@ impl Frustum {
         }
     }
 
+    /// Returns the disc at one end as an ellipsoid whose semi-axis along the axis is [`Self::FLAT`] of the radius; for
+    /// an apex a ball that small. Its last principal axis is that of the frustum.
+    pub fn flat_ellipsoid(&self, end: usize) -> Ellipsoid {
+        let largest = self.radii[0].max(self.radii[1]);
+        let across = crate::any_perpendicular(&self.axis);
+        let axes = Mat3::from_columns(&[across, self.axis.cross(&across), self.axis]);
+        let radius = self.radii[end].max(Self::FLAT * largest);
+        Ellipsoid { center: self.ends[end], axes, semi_axes: Vec3::new(radius, radius, Self::FLAT * largest) }
+    }
+
+    /// Thickness of the ellipsoids that stand for the end discs, relative to the larger radius.
+    pub const FLAT: f64 = 1e-5;
+
     /// Returns the frustum transformed to another frame.
     #[inline]
     pub fn carried(&self, x: &Transform) -> Self {
         Self { ends: self.ends.map(|end| x.point(&end)), axis: x.vector(&self.axis), ..*self }
     }
 
-    /// Returns the lowest and the highest corner of the frustum's bounding box, along the axes of the frame,
-    /// m. The function is not inlined, so that the cheaper kinds do not pay for its stack frame.
+    /// Returns the lowest and the highest corner of the box, along the axes of the frame, around everything that the
+    /// frustum can touch, m. If `meets_triangles`, it is the box of balls around the end discs: as an ellipsoid's, the
+    /// foot of a disc that leans may lie outside it, as far from its centre as the diagonal of a square on its radius.
+    /// The function is not inlined, so that the cheaper kinds do not pay for its stack frame.
     #[inline(never)]
-    pub fn region(&self, _meets_triangles: bool) -> (Vec3, Vec3) {
+    pub fn region(&self, meets_triangles: bool) -> (Vec3, Vec3) {
+        if meets_triangles {
+            let reach = self.radii.map(|radius| radius * std::f64::consts::SQRT_2);
+            let [one, other] = [0, 1].map(|end| box_around(&self.ends[end], Vec3::repeat(reach[end])));
+            return (one.0.inf(&other.0), one.1.sup(&other.1));
+        }
         let axes = [Vec3::x(), Vec3::y(), Vec3::z()];
         let along = |sign: f64| Vec3::from(axes.map(|axis| sign * self.support(&(axis * sign))));
         (along(-1.0), along(1.0))
@@ -120,8 +149,14 @@ impl Frustum {
     /// Returns the maximum of `direction · x` over the solid, m, for a unit direction.
     #[inline]
     pub fn support(&self, direction: &Vec3) -> f64 {
+        self.support_from(direction, &Vec3::zeros())
+    }
+
+    /// Returns the maximum of `direction · (x − from)` over the solid, m, for a unit direction.
+    #[inline]
+    pub fn support_from(&self, direction: &Vec3, from: &Vec3) -> f64 {
         let aside = direction.cross(&self.axis).norm();
-        let at = |end: usize| direction.dot(&self.ends[end]) + self.radii[end] * aside;
+        let at = |end: usize| direction.dot(&(self.ends[end] - from)) + self.radii[end] * aside;
         at(0).max(at(1))
     }
 }
@@ -230,14 +265,22 @@ impl Primitive for Capsule {
 
 impl Primitive for Frustum {
     /// Returns the centre of the disc to which the contact belongs. In the keys of the contacts, ends 0 and 2
-    /// are contacts of the disc at end 0, ends 1 and 3 those of the disc at end 1.
+    /// are contacts of the disc at end 0, ends 1 and 3 those of the disc at end 1. A contact of the side between the
+    /// two has end 4, and the middle of the axis.
     #[inline]
     fn reference_point(&self, end: u32) -> Cow<'_, Vec3> {
-        Cow::Borrowed(&self.ends[usize::from(!end.is_multiple_of(2))])
+        match end {
+            0..=3 => Cow::Borrowed(&self.ends[usize::from(!end.is_multiple_of(2))]),
+            _ => on_axis(&self.ends, end),
+        }
     }
 
     fn followed(&self) -> [Option<Vec3>; 3] {
         ends_and_middle(&self.ends)
+    }
+
+    fn smallest_radius_m(&self) -> Option<f64> {
+        self.radii.into_iter().filter(|radius| *radius > 0.0).reduce(f64::min)
     }
 
     fn least_width_m(&self) -> f64 {

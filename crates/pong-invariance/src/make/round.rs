@@ -23,6 +23,11 @@ pub const FAMILIES: &[(&str, Make, &[&str])] = &[
     ("floor", touched::plane, &["Capsule", "Cylinder", "Cone"]),
     ("rod_on_solid", solid, &["Capsule"]),
     ("rod_on_mesh", mesh, &["Capsule"]),
+    ("egg_on_egg", egg, &["Sphere", "Ellipsoid", "Ellipsoid"]),
+    ("egg_on_round", round_solid, &["Ellipsoid"]),
+    ("wheel_on_solid", solid, &["Cylinder", "Cone"]),
+    ("wheel_on_mesh", mesh, &["Cylinder", "Cone"]),
+    ("wheel_on_wheel", wheel, &["Cylinder", "Cone"]),
 ];
 
 /// Families in turn.
@@ -76,6 +81,21 @@ fn rods(random: &mut Random, is_round: bool) -> Vec<Shape> {
         rods.push(RoundPart { ends: [last.ends[1], next], ..last });
     }
     rods.into_iter().map(Shape::Round).collect()
+}
+
+fn egg(random: &mut Random, is_round: bool) -> Vec<Shape> {
+    vec![toucher(random, &["Ellipsoid"], is_round)]
+}
+
+/// A capsule, a cylinder or a cone.
+fn round_solid(random: &mut Random, is_round: bool) -> Vec<Shape> {
+    let kind = random.pick(&[RoundKind::Capsule, RoundKind::Cylinder, RoundKind::Cone]);
+    vec![Shape::Round(part(random, kind, is_round))]
+}
+
+fn wheel(random: &mut Random, is_round: bool) -> Vec<Shape> {
+    let kind = random.pick(&[RoundKind::Cylinder, RoundKind::Cone]);
+    vec![Shape::Round(part(random, kind, is_round))]
 }
 
 fn shaft(random: &mut Random, is_round: bool) -> Vec<Shape> {

@@ -270,3 +270,29 @@ fn what_must_be_the_same_bits() {
         ["swapped", "regrouped", "bounded", "negated", "thrown_away", "restored", "forgotten", "workers"];
     nothing_differs(&bits, None, 400);
 }
+
+/// Invariances that apply to round parts.
+const OF_ROUND: [&str; 8] =
+    ["turned", "group_frame", "own_axis", "cut", "reordered", "scaled", "beside", "tangent"];
+
+#[test]
+fn ellipsoids_on_what_is_round() {
+    for family in ["egg_on_egg", "egg_on_round"] {
+        nothing_differs(&OF_ROUND, Some(family), 300);
+    }
+}
+
+#[test]
+fn wheels_on_wheels() {
+    nothing_differs(&OF_ROUND, Some("wheel_on_wheel"), 100);
+}
+
+#[test]
+fn wheels_on_solids() {
+    nothing_differs(&OF_ROUND, Some("wheel_on_solid"), 60);
+}
+
+#[test]
+fn wheels_on_meshes() {
+    nothing_differs(&OF_ROUND, Some("wheel_on_mesh"), 40);
+}

@@ -12,9 +12,9 @@ use pong_geometry::primitive::LineSegment;
 const SHARE_HELD: f64 = 0.5;
 
 /// Returns true for an exit at the boundary edge of an internal face, if rounding lets the segment leave
-/// through the internal face instead of the active face.
+/// through the internal face instead of the active face. The discs of a cylinder share their springs; segments do not.
 pub(super) fn is_exit_that_stands_in(contact: &ContactCandidate) -> bool {
-    contact.half && contact.status == CandidateStatus::StandIn
+    contact.half && !contact.shares && contact.status == CandidateStatus::StandIn
 }
 
 /// Keeps one of the exits that several pieces report at one point, and culls the others. `group` has the

@@ -11,7 +11,7 @@ pub(crate) mod status;
 
 use crate::frame::input::PairContext;
 use crate::frame::narrow_phase::candidate::{CandidateStatus, ContactCandidate};
-use crate::frame::narrow_phase::element_pair::BETWEEN_ENDS;
+use crate::frame::narrow_phase::element_pair::{BETWEEN_DISCS, BETWEEN_ENDS};
 use crate::state::{ContactRole, NO_FACE};
 use capsules::couple;
 use exits::{is_exit_that_stands_in, keep_one_of_exits};
@@ -66,11 +66,27 @@ pub(crate) fn assign_weights(
         }
         // The front and the back of a two-sided triangle are separate surfaces with one rim: only one of them
         // keeps a contact at the rim.
-        PrimitiveKind::Capsule => keep_one_side_of_rims(found, context),
+        PrimitiveKind::Capsule | PrimitiveKind::Cylinder | PrimitiveKind::Cone => {
+            keep_one_side_of_rims(found, context);
+        }
         _ => {}
     }
-    if kind_a == PrimitiveKind::Capsule {
-        return share_capsules(found, context, shared_contacts, scratch);
+    match kind_a {
+        // A capsule ends in two balls, a cylinder or cone in two discs, which touch as flat ellipsoids do.
+        PrimitiveKind::Capsule => {
+            return share_bars(
+                found,
+                (PrimitiveKind::Sphere, BETWEEN_ENDS),
+                context,
+                shared_contacts,
+                scratch,
+            );
+        }
+        PrimitiveKind::Cylinder | PrimitiveKind::Cone => {
+            let kind = (PrimitiveKind::Ellipsoid, BETWEEN_DISCS);
+            return share_bars(found, kind, context, shared_contacts, scratch);
+        }
+        _ => {}
     }
     for group in found.chunk_by_mut(|a, b| a.key == b.key) {
         let shares = !matches!(kind_a, PrimitiveKind::Ray | PrimitiveKind::Custom);
@@ -92,10 +108,12 @@ pub(crate) fn assign_weights(
     outcome
 }
 
-/// Assigns the weights of the contacts of capsules. `found` must be in summation order. The contacts of one
-/// end sphere with one surface share half a spring.
-fn share_capsules(
+/// Assigns the weights of the contacts of capsules, cylinders and cones. `found` must be in summation order. The contacts
+/// of one end ball or disc with one surface share half a spring. `kind_of_end` tells how an end touches, `between` is
+/// the end in the keys of contacts between the ends.
+fn share_bars(
     found: &mut [ContactCandidate],
+    (kind_of_end, between): (PrimitiveKind, u32),
     context: &PairContext<'_>,
     shared_contacts: &mut Table<SharedContact>,
     scratch: &mut Arena,
@@ -103,7 +121,7 @@ fn share_capsules(
     let mut outcome = Ok(());
     let surface = |found: &ContactCandidate| (found.key.head(), found.key.shell_b);
     for body in found.chunk_by_mut(|a, b| surface(a) == surface(b)) {
-        let edges = body.partition_point(|found| found.key.end < BETWEEN_ENDS);
+        let edges = body.partition_point(|found| found.key.end < between);
         let joint = body.len() > 1 && is_joint(&body[0], context);
         if joint {
             body.iter_mut().for_each(|found| found.shares = true);
@@ -116,15 +134,16 @@ fn share_capsules(
         for end in ends.chunk_by_mut(|a, b| a.key == b.key) {
             cull_opposite_at_points(end);
             match joint {
-                true => judge_by_kind(end, PrimitiveKind::Sphere, context, judge_before_sharing),
-                false => judge_before_sharing(end, PrimitiveKind::Sphere, context),
+                true => judge_by_kind(end, kind_of_end, context, judge_before_sharing),
+                false => judge_before_sharing(end, kind_of_end, context),
             }
             if end.len() > 1 {
                 outcome = outcome.and(find_shares(end, &context.body_b.triangles, shared_contacts, scratch));
             }
         }
         if !middle.is_empty() {
-            couple(ends, middle);
+            let two = ends.partition_point(|end| end.key.end < 2);
+            couple(&mut ends[..two], middle);
         }
         ends.chunk_by_mut(|a, b| a.key == b.key).filter(|end| end.len() > 1).for_each(drop_idle);
         if joint {

@@ -139,6 +139,10 @@ impl<'m> ChunkCandidates<'m> {
 /// Value of [`ContactKey::end`] for a contact of a capsule between its ends.
 pub(crate) const BETWEEN_ENDS: u32 = 2;
 
+/// Value of [`ContactKey::end`] for a contact of the side of a cylinder between its end discs. Ends 0 and 1 are the
+/// lowest points of the two discs, ends 2 and 3 the highest.
+pub(crate) const BETWEEN_DISCS: u32 = 4;
+
 /// A sphere, or the end sphere of a capsule.
 pub(crate) struct Ball<'s> {
     /// Sphere in B's frame; borrowed, because a copy would stall on store forwarding.
@@ -247,6 +251,11 @@ impl<'a> ElementPair<'a> {
     /// Adds the contact of a capsule's axis with an edge between its ends.
     pub fn between_ends(&self, crossing: &Interference, found: &mut ChunkCandidates<'_>) {
         self.emit(self.key_at(BETWEEN_ENDS), crossing, found, |out| out.share(true));
+    }
+
+    /// Adds the contact of a cylinder's side with an edge between its end discs.
+    pub fn between_discs(&self, crossing: &Interference, found: &mut ChunkCandidates<'_>) {
+        self.emit(self.key_at(BETWEEN_DISCS), crossing, found, |out| out.share(true));
     }
 
     /// Adds the candidate of a contact under `key`; `adjust` sets the fields that depend on the tester.

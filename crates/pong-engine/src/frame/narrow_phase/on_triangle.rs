@@ -11,9 +11,10 @@ use crate::frame::input::PairContext;
 use pong_geometry::Vec3;
 use pong_geometry::interference::Feature;
 use pong_geometry::interference::ellipsoid_triangle::ellipsoid_triangle;
+use pong_geometry::interference::end_disc::EndDisc;
 use pong_geometry::interference::sphere_triangle::sphere_triangle;
 use pong_geometry::interference::triangle_features::{Standing, TriangleContact};
-use pong_geometry::primitive::{Ellipsoid, Sphere};
+use pong_geometry::primitive::{Ellipsoid, Primitive, Sphere};
 use pong_model::Item;
 
 /// Centre of a sphere, of an ellipsoid, or of a capsule's end sphere.
@@ -90,6 +91,10 @@ fn touched_triangle_behind(pair: &ElementPair<'_>, end: Option<u32>, feature: Fe
             let thickness = thickness_for_ellipsoid(pair.context, pair.item_b, &ellipsoid);
             ellipsoid_triangle(&ellipsoid, set, triangle, thickness, &mut note);
         }
+        Some(TransformedPrimitive::Frustum(frustum)) => {
+            let disc = EndDisc { frustum: &frustum, end: end.unwrap_or(0) as usize % 2 };
+            disc.on_triangle(set, triangle, thickness_for_disc(pair.context, pair.item_b, &disc), &mut note);
+        }
         _ => {}
     }
     touched
@@ -104,6 +109,13 @@ pub(crate) fn thickness_for_ellipsoid(
 ) -> f64 {
     let given = context.body_b.primitives[triangle.primitive as usize].thickness;
     given.unwrap_or(ellipsoid.smallest_semi_axis())
+}
+
+/// Distance behind a triangle up to which the centre of an end disc is pushed to the front, m: the `thickness` of the
+/// model, otherwise the smaller radius of the body.
+pub(crate) fn thickness_for_disc(context: &PairContext<'_>, triangle: Item, disc: &EndDisc<'_>) -> f64 {
+    let given = context.body_b.primitives[triangle.primitive as usize].thickness;
+    given.or(disc.frustum.smallest_radius_m()).unwrap_or(0.0)
 }
 
 /// Returns true if a centre without an earlier position is behind the contact's feature, but in front of the

@@ -12,7 +12,7 @@ use crate::seal::{Direction, Plan};
 use crate::state::{ContactKey, ContactRecord, ContactRole};
 use pong_geometry::Vec3;
 use pong_geometry::interference::ray_triangle::ray_triangle;
-use pong_geometry::primitive::{PrimitiveKind, Ray};
+use pong_geometry::primitive::{Primitive, PrimitiveKind, Ray};
 use pong_geometry::simd::Portable;
 use pong_model::box_tree::{Child, lanes};
 use pong_model::{Batch, Item};
@@ -101,9 +101,10 @@ impl<'a> Seen<'a> {
     /// Follows one point of an element of A through one batch of B; adds at most one event.
     fn follow(&self, item_a: Item, place: &Vec3, batch: &Batch, events: &mut TunnellingEvents) {
         let Some(line) = self.line(place) else { return };
-        // Against spheres the box includes the radius of the element, because a sphere may pass through a
-        // smaller one beside its own centre.
-        let beside = if batch.kind == PrimitiveKind::Sphere { self.radius(item_a) } else { 0.0 };
+        // Against spheres and ellipsoids the box includes the radius of the element, because a ball may pass
+        // through a smaller one beside its own centre.
+        let is_ball = matches!(batch.kind, PrimitiveKind::Sphere | PrimitiveKind::Ellipsoid);
+        let beside = if is_ball { self.radius(item_a) } else { 0.0 };
         let (low, high) = (line.from_b.inf(&line.to_b), line.from_b.sup(&line.to_b));
         let bounds = [low.add_scalar(-beside), high.add_scalar(beside)];
         let went = any_met(batch, &bounds, |place| {
@@ -134,7 +135,7 @@ impl<'a> Seen<'a> {
     pub fn swept(&self, item_a: Item) -> Option<Swept> {
         let (body, motion) = (self.context.body_a, self.context.motion);
         let kind = body.primitives[item_a.primitive as usize].kind;
-        let (axis, radius) = body.element(kind, item_a.element).facts()?.core()?;
+        let (axis, radius) = core(body.element(kind, item_a.element).facts()?)?;
         let since = motion.since_commit.as_ref()?;
         let [from_b, to_b] = [&since.x_ba, &motion.x_ba].map(|x_ba| axis.map(|place| x_ba.point(&place)));
         Some(Swept { from_b, to_b, radius })
@@ -144,7 +145,7 @@ impl<'a> Seen<'a> {
     fn radius(&self, item_a: Item) -> f64 {
         let body = self.context.body_a;
         let kind = body.primitives[item_a.primitive as usize].kind;
-        let core = body.element(kind, item_a.element).facts().and_then(|facts| facts.core());
+        let core = body.element(kind, item_a.element).facts().and_then(core);
         core.filter(|(ends, _)| ends[0] == ends[1]).map_or(0.0, |(_, radius)| radius)
     }
 
@@ -242,6 +243,15 @@ impl<'a> Seen<'a> {
     pub fn passed(&self, primitive_a: u32) -> TunnellingEvent {
         TunnellingEvent { body_a: self.bodies.0, primitive_a, body_b: self.bodies.1 }
     }
+}
+
+/// Axis and radius by which an element is followed through round solids, m; of an ellipsoid the centre and the smallest
+/// semi-axis, of a cylinder or a cone the smaller radius.
+fn core(facts: &dyn Primitive) -> Option<([Vec3; 2], f64)> {
+    facts.core().or_else(|| {
+        let [one, other, _] = facts.followed();
+        Some(([one?, other.or(one)?], facts.smallest_radius_m()?))
+    })
 }
 
 /// Returns true if `holds` is true for any element of `batch` whose box overlaps the box from `low` to

@@ -410,6 +410,14 @@ fn round() -> Scene {
         "Cone(name: \"plug\", ends: ((12,2,-0.41),(12.3,2,-0.43)), radii: (0.1,0.08))",
         "Capsule(name: \"on_box\", ends: ((14.7,0,0.08),(15.3,0.1,0.1)), radius: 0.1)",
         "Capsule(name: \"over_box\", ends: ((15.1,0.2,0.3),(15.9,0.2,-0.4)), radius: 0.15)",
+        "Cylinder(name: \"drum\", ends: ((2.7,0,0.09),(3.2,0.05,0.09)), radius: 0.1)",
+        "Cone(name: \"stub\", ends: ((2.6,0.1,0.08),(2.9,0.1,0.09)), radii: (0.1,0.09))",
+        "Cylinder(name: \"over_plug\", ends: ((5.8,0,0.09),(6.2,0.02,0.1)), radius: 0.1)",
+        "Cone(name: \"on_plug\", ends: ((5.6,0.05,0.09),(5.9,0.05,0.1)), radii: (0.1,0.08))",
+        "Cylinder(name: \"wheel\", ends: ((14.8,0.1,0.09),(15.2,0.12,0.09)), radius: 0.1)",
+        "Cone(name: \"knob\", ends: ((14.8,-0.2,0.09),(15.0,-0.2,0.1)), radii: (0.1,0.11))",
+        "Cylinder(name: \"tyre\", ends: ((17.9,0.3,0.09),(18.2,0.3,0.09)), radius: 0.1)",
+        "Cone(name: \"tip\", ends: ((17.9,-0.3,0.09),(18.1,-0.3,0.09)), radii: (0.1,0.11))",
         "Capsule(name: \"on_plate\", ends: ((17.8,0,0.08),(18.2,0.1,0.1)), radius: 0.1)",
     ];
     movers.text.extend(in_hole.iter().chain(&on_floor).map(|text| (*text).to_owned()));

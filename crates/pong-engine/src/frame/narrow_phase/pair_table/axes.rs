@@ -4,14 +4,18 @@ use super::balls::{ball_on_piece, ball_on_triangle, emit_in_bore};
 use crate::frame::broad_phase::transformed::TransformedPrimitive;
 use crate::frame::narrow_phase::candidate::CandidateStatus;
 use crate::frame::narrow_phase::element_pair::{Ball, ChunkCandidates, ElementPair, end_spheres, wrong_kind};
+use crate::frame::narrow_phase::on_triangle::{Centre, on_triangle, thickness_for_disc};
 use pong_geometry::interference::capsule_edge::{ConvexEdge, capsule_edge};
 use pong_geometry::interference::capsule_polyhedron::CapsuleAtPiece;
+use pong_geometry::interference::ellipsoid_polyhedron::ellipsoid_piece;
+use pong_geometry::interference::end_disc::EndDisc;
 use pong_geometry::interference::line_segment_polyhedron::{AtWall, line_segment_piece};
+use pong_geometry::interference::side_edge::side_edge;
 use pong_geometry::interference::triangle_features::{EdgeClass, TriangleView};
 use pong_geometry::interference::two_ended_bore::{capsule_bore, cylinder_bore, segment_bore};
-use pong_geometry::interference::two_ended_round::EndContacts;
+use pong_geometry::interference::two_ended_round::EndContact;
 use pong_geometry::interference::{Feature, Interference};
-use pong_geometry::primitive::{Containment, Polyhedron};
+use pong_geometry::primitive::{Capsule, Containment, Frustum, Polyhedron, PolyhedronFace};
 
 /// Adds the contacts of a capsule with a piece of a body: those of the end spheres, and those of the convex
 /// edges that the axis crosses between them.
@@ -40,6 +44,109 @@ pub(super) fn capsule_triangle(
     for ball in Ball::at_ends(&end_spheres(capsule)) {
         ball_on_triangle(pair, &ball, false, found);
     }
+    each_edge_of_triangle(pair, |edge| {
+        capsule_edge(capsule, edge).iter().for_each(|crossing| pair.between_ends(crossing, found));
+    });
+}
+
+/// Capsule around the axis of a cylinder, which has the cylinder's side between the end discs; `None` for a cone.
+fn side_of(frustum: &Frustum) -> Option<Capsule> {
+    let [first, last] = frustum.radii;
+    (first == last).then_some(Capsule { ends: frustum.ends, radius: first })
+}
+
+/// Adds the contacts of a cylinder or a cone with a piece of a body: those of its end discs, and those of the convex
+/// edges that its side crosses between them.
+pub(super) fn frustum_polyhedron(
+    pair: &ElementPair<'_>,
+    a: &TransformedPrimitive,
+    found: &mut ChunkCandidates<'_>,
+) {
+    let TransformedPrimitive::Frustum(frustum) = a else { wrong_kind(a) };
+    let polyhedron = &pair.body_b().polyhedra[pair.item_b.element as usize];
+    let is_apart = |face: &PolyhedronFace| -frustum.support(&-face.normal) >= face.offset;
+    if polyhedron.faces.iter().any(is_apart) {
+        return;
+    }
+    for end in 0..2 {
+        let disc = EndDisc { frustum, end };
+        let Some(contact) = ellipsoid_piece(&frustum.flat_ellipsoid(end), polyhedron) else { continue };
+        let Some(lowest) = disc.exact(&contact.interference) else { continue };
+        let status = if contact.stands_in { CandidateStatus::StandIn } else { CandidateStatus::Front };
+        pair.emit(pair.key_at(end as u32), &lowest, found, |out| {
+            out.share(true);
+            out.status = status;
+        });
+        let Some(highest) = disc.highest(&lowest).filter(|_| lowest.feature.is_face()) else { continue };
+        let foot = highest.deepest_b + highest.normal_b * highest.depth;
+        let rims = polyhedron.rim(lowest.feature.index());
+        if rims.iter().all(|rim| rim.outward.dot(&(foot - rim.anchor)) <= 0.0) {
+            pair.emit(pair.key_at(end as u32 + 2), &highest, found, |out| out.share(true));
+        }
+    }
+    let Some(side) = side_of(frustum) else {
+        for (index, edge) in polyhedron.edges.iter().enumerate() {
+            let Some(push) = &edge.push else { continue };
+            let ends_b = edge.vertices.map(|vertex| polyhedron.vertices[vertex as usize].position);
+            let feature = Feature::edge(index);
+            let edge = ConvexEdge {
+                ends_b,
+                normals_b: push.normals,
+                outwards_b: Some(push.outwards),
+                free_outward_b: None,
+                feature,
+            };
+            side_edge(frustum, &edge).iter().for_each(|crossing| pair.between_discs(crossing, found));
+        }
+        return;
+    };
+    if let Some(at_piece) = CapsuleAtPiece::new(&side, polyhedron) {
+        // An edge past which the axis has sunk does not push, as with cones and on triangles.
+        at_piece.each_crossing(|crossing| {
+            if crossing.depth < side.radius {
+                pair.between_discs(crossing, found);
+            }
+        });
+    }
+}
+
+/// Adds the contacts of a cylinder or a cone with a triangle: those of its end discs, and those of the convex and
+/// free edges that its side crosses.
+pub(super) fn frustum_triangle(
+    pair: &ElementPair<'_>,
+    a: &TransformedPrimitive,
+    found: &mut ChunkCandidates<'_>,
+) {
+    let TransformedPrimitive::Frustum(frustum) = a else { wrong_kind(a) };
+    let (set, triangle) = (&pair.body_b().triangles, pair.item_b.element);
+    let local = &pair.body_a().frusta[pair.item_a.element as usize];
+    for end in 0..2 {
+        let disc = EndDisc { frustum, end };
+        let center = |key: usize| Centre {
+            center_a: local.ends[end],
+            center_b: frustum.ends[end],
+            end: Some(key as u32),
+        };
+        let thickness = thickness_for_disc(pair.context, pair.item_b, &disc);
+        disc.on_triangle(set, triangle, thickness, &mut |contact| {
+            on_triangle(pair, &center(end), contact, found);
+        });
+        if let Some(highest) = disc.highest_on_triangle(set, triangle, thickness) {
+            on_triangle(pair, &center(end + 2), highest, found);
+        }
+    }
+    let side = side_of(frustum);
+    each_edge_of_triangle(pair, |edge| {
+        let crossing = match &side {
+            Some(side) => capsule_edge(side, edge),
+            None => side_edge(frustum, edge),
+        };
+        crossing.iter().for_each(|crossing| pair.between_discs(crossing, found));
+    });
+}
+
+/// Calls `visit` with the convex and free edges of a triangle that push.
+fn each_edge_of_triangle(pair: &ElementPair<'_>, mut visit: impl FnMut(&ConvexEdge)) {
     let (set, triangle) = (&pair.body_b().triangles, pair.item_b.element);
     let may_push = set.triangles[triangle as usize].may_push;
     for k in (0..3).filter(|&k| may_push.edge(k)) {
@@ -51,10 +158,7 @@ pub(super) fn capsule_triangle(
         };
         let feature = Feature::edge(triangle as usize * 3 + k);
         let ends_b = view.edge_ends(k);
-        let edge = ConvexEdge { ends_b, normals_b: normals, outwards_b: None, free_outward_b, feature };
-        if let Some(crossing) = capsule_edge(capsule, &edge) {
-            pair.between_ends(&crossing, found);
-        }
+        visit(&ConvexEdge { ends_b, normals_b: normals, outwards_b: None, free_outward_b, feature });
     }
 }
 
@@ -129,15 +233,16 @@ pub(super) fn emit_halves<A>(
     }
 }
 
-/// Adds the contacts of a segment or capsule with a round solid: at each end of the overlap and at the
-/// deepest point. Each contact has half a spring, and its share as weight.
+/// Adds the contacts of a body with two ends on a round solid: of a segment or capsule at each end of the overlap and
+/// at the deepest point, of a cylinder or cone at places of its rims. Each contact has half a spring, and its share as
+/// weight.
 pub(super) fn emit_shares<A>(
     pair: &ElementPair<'_>,
     _: &A,
-    contacts: EndContacts,
+    contacts: impl AsRef<[Option<EndContact>]>,
     found: &mut ChunkCandidates<'_>,
 ) {
-    for (end, contact) in contacts.iter().enumerate() {
+    for (end, contact) in contacts.as_ref().iter().enumerate() {
         let Some(contact) = contact else { continue };
         pair.emit(pair.key_at(end as u32), &contact.interference, found, |out| {
             out.half = true;

@@ -8,11 +8,11 @@
 //!  Point           x         x                    x         x       x        x       x     x
 //!  LineSegment                                    x         x       x        x       x     x
 //!  Ray             x         x         x          x         x       x        x       x     x
-//!  Sphere          x                   x          x         x       x        x       x     x
-//!  Ellipsoid                           x          x         x
+//!  Sphere          x         x         x          x         x       x        x       x     x
+//!  Ellipsoid                 x         x          x         x       x        x       x
 //!  Capsule                             x          x         x       x        x       x     x
-//!  Cylinder                                                 x                              x
-//!  Cone                                                     x
+//!  Cylinder                            x          x         x                x       x     x
+//!  Cone                                x          x         x                        x
 //! ```
 //!
 //! Point–Triangle is blank on purpose: no depth can be defined.
@@ -24,14 +24,17 @@ use super::element_pair::{ChunkCandidates, ElementPair, wrong_kind};
 use super::registered;
 use crate::frame::broad_phase::transformed::TransformedPrimitive;
 use axes::{
-    axis_in_bore, capsule_polyhedron, capsule_triangle, emit_halves, emit_shares, line_segment_polyhedron,
+    axis_in_bore, capsule_polyhedron, capsule_triangle, emit_halves, emit_shares, frustum_polyhedron,
+    frustum_triangle, line_segment_polyhedron,
 };
 use balls::{
     ball_in_bore, ball_of, ellipsoid_polyhedron, ellipsoid_triangle, emit_hit, point_polyhedron,
     ray_on_triangle, sphere_on_triangle, sphere_polyhedron,
 };
 use pong_geometry::interference::ball_round::{ball_capsule, ball_frustum};
+use pong_geometry::interference::ellipsoid_ellipsoid::ellipsoid_ellipsoid;
 use pong_geometry::interference::ellipsoid_plane::ellipsoid_plane;
+use pong_geometry::interference::ellipsoid_round::{ellipsoid_capsule, ellipsoid_frustum};
 use pong_geometry::interference::line_segment_plane::line_segment_plane;
 use pong_geometry::interference::point_ellipsoid::point_ellipsoid;
 use pong_geometry::interference::point_plane::point_plane;
@@ -41,11 +44,13 @@ use pong_geometry::interference::ray_plane::ray_plane;
 use pong_geometry::interference::ray_polyhedron::ray_polyhedron;
 use pong_geometry::interference::ray_round::{ray_capsule, ray_ellipsoid, ray_frustum, ray_sphere};
 use pong_geometry::interference::round_plane::{capsule_plane, frustum_plane};
+use pong_geometry::interference::sphere_ellipsoid::sphere_ellipsoid;
 use pong_geometry::interference::sphere_plane::sphere_plane;
 use pong_geometry::interference::sphere_sphere::sphere_sphere;
 use pong_geometry::interference::two_ended_round::{
     capsule_capsule, capsule_frustum, segment_capsule, segment_frustum,
 };
+use pong_geometry::interference::two_frusta::two_frusta;
 use pong_geometry::primitive::PrimitiveKind::{self, *};
 
 /// Contact tester: one element of A, in B's frame, against one element of B.
@@ -118,6 +123,7 @@ const ROWS: &[KindPair] = &[
     row(Ray, Cone, by!(Ray, frusta, ray_frustum, emit_hit), 50, 1),
     row(Ray, Bore, by!(Ray, bores, ray_bore, emit_hit), 50, 1),
     row(Sphere, Sphere, by!(Sphere, spheres, sphere_sphere), 15, 1),
+    row(Sphere, Ellipsoid, by!(Sphere, ellipsoids, sphere_ellipsoid), 50, 1),
     row(Sphere, Triangle, sphere_on_triangle, 1000, 4),
     row(Sphere, Polyhedron, sphere_polyhedron, 15, 4),
     row(Sphere, Plane, by!(Sphere, planes, sphere_plane), 15, 1),
@@ -125,9 +131,13 @@ const ROWS: &[KindPair] = &[
     row(Sphere, Cylinder, by!(Sphere, frusta, ball_frustum), 30, 1),
     row(Sphere, Cone, by!(Sphere, frusta, ball_frustum), 30, 1),
     row(Sphere, Bore, ball_in_bore, 30, 2),
+    row(Ellipsoid, Ellipsoid, by!(Ellipsoid, ellipsoids, ellipsoid_ellipsoid), 500, 1),
     row(Ellipsoid, Triangle, ellipsoid_triangle, 1000, 4),
     row(Ellipsoid, Polyhedron, ellipsoid_polyhedron, 200, 4),
     row(Ellipsoid, Plane, by!(Ellipsoid, planes, ellipsoid_plane), 200, 1),
+    row(Ellipsoid, Capsule, by!(Ellipsoid, capsules, ellipsoid_capsule), 200, 1),
+    row(Ellipsoid, Cylinder, by!(Ellipsoid, frusta, ellipsoid_frustum), 1000, 1),
+    row(Ellipsoid, Cone, by!(Ellipsoid, frusta, ellipsoid_frustum), 1000, 1),
     row(Capsule, Triangle, capsule_triangle, 2000, 10),
     row(Capsule, Polyhedron, capsule_polyhedron, 500, 10),
     row(Capsule, Plane, by!(Capsule, planes, capsule_plane, emit_halves), 50, 2),
@@ -135,9 +145,16 @@ const ROWS: &[KindPair] = &[
     row(Capsule, Cylinder, by!(Capsule, frusta, capsule_frustum, emit_shares), 1000, 3),
     row(Capsule, Cone, by!(Capsule, frusta, capsule_frustum, emit_shares), 1000, 3),
     row(Capsule, Bore, axis_in_bore, 1000, 4),
+    row(Cylinder, Triangle, frustum_triangle, 4000, 14),
+    row(Cylinder, Polyhedron, frustum_polyhedron, 2000, 14),
     row(Cylinder, Plane, by!(Frustum, planes, frustum_plane, emit_halves), 50, 4),
+    row(Cylinder, Cylinder, by!(Frustum, frusta, two_frusta, emit_shares), 4000, 4),
+    row(Cylinder, Cone, by!(Frustum, frusta, two_frusta, emit_shares), 4000, 4),
     row(Cylinder, Bore, axis_in_bore, 3000, 4),
+    row(Cone, Triangle, frustum_triangle, 4000, 14),
+    row(Cone, Polyhedron, frustum_polyhedron, 2000, 14),
     row(Cone, Plane, by!(Frustum, planes, frustum_plane, emit_halves), 50, 4),
+    row(Cone, Cone, by!(Frustum, frusta, two_frusta, emit_shares), 4000, 4),
 ];
 
 const KINDS: usize = PrimitiveKind::ALL.len();

@@ -1,0 +1,155 @@
+//! Search for the least translation that separates an ellipsoid (A) from another convex solid (B)
+//! (docs/theory.md, 2.6).
+//!
+//! With the support functions h_A about the centre x of A and h_B, the translation along a unit normal n has the
+//! length D(n) = h_A(n) + h_B(n) − n·x. This is the support function of the sum of the two bodies, seen from x, and
+//! its gradient G(n) is the point of the sum that is farthest along n. The least D is found by Newton's method on
+//! the unit sphere, with the derivatives
+//!
+//! ```text
+//! first: G − D·n,    second: ∇²h_A + ∇²h_B − D    (in the tangent plane)
+//! ```
+//!
+//! Let ρ be the smallest radius of curvature of the ellipsoid. Where D < ρ, D has at most one stationary normal:
+//! the ellipsoid is the sum of a ball of radius ρ and a convex body, and the point that the ball's centre would be
+//! is outside the sum of the other two. So a minimum below ρ is the least. Otherwise the search starts again from
+//! directions spread over the sphere.
+
+use super::ellipsoid_prepared::PreparedEllipsoid;
+use crate::{Mat3, Vec3, any_perpendicular};
+
+/// Sum of two bodies along one normal.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Along {
+    /// Length of the translation, D, m; negative if the bodies are apart along the normal.
+    pub overlap: f64,
+    /// Point of the sum farthest along the normal, seen from A's centre, G, m.
+    pub farthest_b: Vec3,
+    /// Radii of curvature of the sum there, m.
+    pub radii: Mat3,
+}
+
+/// Part of a body in an [`Along`]: farthest point and radii of curvature.
+pub(super) type Part = (Vec3, Mat3);
+
+impl Along {
+    /// Adds the parts of an ellipsoid and of another body along the unit normal `n`.
+    pub fn new(n: &Vec3, a: &PreparedEllipsoid, (reach, radii): Part) -> Self {
+        let (reach_a, radii_a) = a.part(n);
+        let farthest_b = reach_a + reach - a.center;
+        Self { overlap: n.dot(&farthest_b), farthest_b, radii: radii_a + radii }
+    }
+}
+
+impl PreparedEllipsoid {
+    /// Returns the point farthest along a unit normal, relative to the centre, and the radii of curvature there.
+    pub(super) fn part(&self, n: &Vec3) -> Part {
+        let widened = self.widened(n);
+        let half_width = widened.norm();
+        let reach = self.reach(&widened) / half_width;
+        let squares = self.widen.iter().map(|w| w * w.transpose()).sum::<Mat3>();
+        (reach, (squares - reach * reach.transpose()) / half_width)
+    }
+
+    /// Smallest radius of curvature, m.
+    pub(super) fn least_radius(&self) -> f64 {
+        self.smallest * (self.smallest / self.largest)
+    }
+
+    /// Returns directions that are spread over the unit sphere, and as many that are the normals of points spread over
+    /// the ellipsoid. They turn with it.
+    pub(super) fn directions(&self) -> impl Iterator<Item = Vec3> {
+        let sizes = self.widen.map(|w| w.norm());
+        let frame = [0, 1, 2].map(|i| self.widen[i] / sizes[i]);
+        let narrowed = [0, 1, 2].map(|i| frame[i] / sizes[i]);
+        lattice(frame).chain(lattice(narrowed))
+    }
+}
+
+/// Returns 26 unit vectors: along the vectors of `frame`, and along the sums of two and three of them.
+pub(super) fn lattice(frame: [Vec3; 3]) -> impl Iterator<Item = Vec3> {
+    const SIGNS: [f64; 3] = [0.0, 1.0, -1.0];
+    (1..27).map(move |code| {
+        let sum = frame[0] * SIGNS[code % 3] + frame[1] * SIGNS[code / 3 % 3] + frame[2] * SIGNS[code / 9];
+        sum.normalize()
+    })
+}
+
+/// Returns a normal at which D is a local minimum, by descent from `start`. The descent ends early where the bodies
+/// are apart. `along` evaluates D near a normal.
+pub(super) fn descend(start: &Vec3, along: impl Fn(&Vec3) -> Along) -> Vec3 {
+    const STEPS: usize = 60;
+    /// Rounding of D, relative to the lengths that enter.
+    const ROUNDING: f64 = 8.0 * f64::EPSILON;
+    /// Longest step, rad.
+    const FARTHEST: f64 = 0.5;
+    let (mut normal, mut damping) = (*start, 0.0);
+    let mut here = along(&normal);
+    let mut slope = here.farthest_b - normal * here.overlap;
+    for _ in 0..STEPS {
+        let size = here.farthest_b.norm() + here.radii.amax();
+        if here.overlap <= 0.0 || slope.norm() <= f64::EPSILON * size {
+            break;
+        }
+        let u = any_perpendicular(&normal);
+        let v = normal.cross(&u);
+        let (of_u, of_v) = (here.radii * u, here.radii * v);
+        let (uu, uv, vv) = (u.dot(&of_u) - here.overlap, u.dot(&of_v), v.dot(&of_v) - here.overlap);
+        // Smaller eigenvalue: raised to a positive one where D is not convex.
+        let least = 0.5 * (uu + vv) - (0.25 * (uu - vv) * (uu - vv) + uv * uv).sqrt();
+        let floor = 1e-6 * size;
+        let raise = damping + (floor - least).max(0.0) * if least < floor { 1.0 } else { 0.0 };
+        let (uu, vv) = (uu + raise, vv + raise);
+        let (along_u, along_v) = (u.dot(&slope), v.dot(&slope));
+        let determinant = (uu * vv - uv * uv).max(f64::MIN_POSITIVE);
+        let step = u * ((uv * along_v - vv * along_u) / determinant)
+            + v * ((uv * along_u - uu * along_v) / determinant);
+        let length = step.norm();
+        let step = if length > FARTHEST { step * (FARTHEST / length) } else { step };
+        let next = (normal + step).normalize();
+        let there = along(&next);
+        let slope_there = there.farthest_b - next * there.overlap;
+        let noise = ROUNDING * size;
+        // Near the minimum D is flat to rounding, and the slope decides.
+        let flatter = there.overlap <= here.overlap + noise && slope_there.norm() < slope.norm();
+        if there.overlap < here.overlap - noise || flatter {
+            (normal, here, slope) = (next, there, slope_there);
+            damping *= 0.1;
+        } else if length <= f64::EPSILON {
+            break;
+        } else {
+            damping = (4.0 * damping).max(0.1 * (uu.abs() + vv.abs()));
+        }
+    }
+    normal
+}
+
+/// Returns the best of the normals to which the most promising of `directions` descend. `overlap` is D,
+/// `to_minimum` the descent.
+pub(super) fn least_of_many(
+    directions: impl Iterator<Item = Vec3>,
+    overlap: impl Fn(&Vec3) -> f64,
+    to_minimum: impl Fn(&Vec3) -> Vec3,
+) -> Option<Vec3> {
+    /// Number of descents.
+    const DESCENTS: usize = 8;
+    /// Cosine above which two starts count as one.
+    const SAME: f64 = 0.9;
+    let mut starts = [(f64::INFINITY, Vec3::zeros()); DESCENTS];
+    for direction in directions {
+        let value = overlap(&direction);
+        // The list is sorted, and no two of its directions are near each other.
+        let near = starts.iter().position(|(_, other)| other.dot(&direction) > SAME).unwrap_or(DESCENTS - 1);
+        if value >= starts[near].0 {
+            continue;
+        }
+        let place = starts.iter().position(|(other, _)| value < *other).unwrap_or(near);
+        starts[place..=near].rotate_right(1);
+        starts[place] = (value, direction);
+    }
+    let found = starts.iter().filter(|(value, _)| value.is_finite()).map(|(_, start)| to_minimum(start));
+    found
+        .map(|normal| (overlap(&normal), normal))
+        .reduce(|a, b| if b.0 < a.0 { b } else { a })
+        .map(|best| best.1)
+}
