@@ -13,6 +13,9 @@ pub fn cores() -> Vec<usize> {
 }
 
 /// Binds the calling thread to a core.
+///
+/// # Errors
+/// The reason of the system.
 pub fn bind(core: usize) -> Result<(), String> {
     // `core_affinity` would write past the system's set.
     if core < libc::CPU_SETSIZE as usize && core_affinity::set_for_current(core_affinity::CoreId { id: core })

@@ -14,6 +14,9 @@ pub fn cores() -> Vec<usize> {
 }
 
 /// Refuses: what macOS offers in place of a binding is a hint, and none on Apple's own processors.
+///
+/// # Errors
+/// The reason of the system.
 pub fn bind(_core: usize) -> Result<(), String> {
     Err(NO_BINDING.to_owned())
 }

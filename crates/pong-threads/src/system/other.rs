@@ -15,11 +15,17 @@ pub fn cores() -> Vec<usize> {
 }
 
 /// Refuses.
+///
+/// # Errors
+/// The reason of the system.
 pub fn bind(_core: usize) -> Result<(), String> {
     Err(NO_BINDING.to_owned())
 }
 
 /// Refuses.
+///
+/// # Errors
+/// The reason of the system.
 pub fn raise_priority(_priority: u8) -> Result<(), String> {
     Err(NO_FIFO.to_owned())
 }

@@ -15,6 +15,9 @@ fn schedule(policy: libc::c_int, priority: libc::c_int) -> Result<(), String> {
 }
 
 /// Asks for SCHED_FIFO with this priority for the calling thread.
+///
+/// # Errors
+/// The reason of the system.
 pub fn raise_priority(priority: u8) -> Result<(), String> {
     schedule(libc::SCHED_FIFO, priority.into())
 }

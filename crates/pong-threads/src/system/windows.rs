@@ -14,6 +14,9 @@ pub fn cores() -> Vec<usize> {
 }
 
 /// Binds the calling thread to a core.
+///
+/// # Errors
+/// The reason of the system.
 pub fn bind(core: usize) -> Result<(), String> {
     // The system's mask has 64 bits.
     if core < 64 && core_affinity::set_for_current(core_affinity::CoreId { id: core }) {
@@ -23,6 +26,9 @@ pub fn bind(core: usize) -> Result<(), String> {
 }
 
 /// Refuses: priorities are relative to the class of the process, which is the host's to choose.
+///
+/// # Errors
+/// The reason of the system.
 pub fn raise_priority(_priority: u8) -> Result<(), String> {
     Err(NO_FIFO.to_owned())
 }
