@@ -2,14 +2,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Builds the zips of both extensions, as Blender installs them.
 
-    python3 blender/build_zips.py [--wheel FILE] [-o DIR] [NAME …]
+    python3 blender/build_zips.py [NAME …] [--wheel FILE …] [-o DIR]
 
-Needs Python 3.11 and the wheel `pong`, which goes into both zips: Blender installs it with the extension. The same sources
-and wheel give the same bytes on any machine: names in order, one date, no compression. Blender's own `extension build`
-leaves out links, so it would ship pong_viz without its core; here a link becomes what it points at.
+Needs Python 3.11 and wheels `pong`, one for each system, which go into both zips: Blender installs that of its system with
+the extension. The same sources and wheels give the same bytes on any machine: names in order, one date, no compression.
+Blender's own `extension build` leaves out links, so it would ship pong_viz without its core; here a link becomes what it
+points at.
 """
 
-import argparse
 import argparse
 import os
 import re
@@ -23,7 +23,14 @@ EXTENSIONS = ("pong_pmtk", "pong_viz")
 DATE = (1980, 1, 1, 0, 0, 0)  # the first that a zip can tell
 PLAIN_FILE = 0o100644 << 16
 BUILT_WHEELS = HERE.parent / "target/python/wheel"  # where the checks leave the wheel
-PLATFORMS = {"linux_x86_64": "linux-x64", "linux_aarch64": "linux-arm64"}  # of a wheel, and as Blender says it
+PLATFORMS = {  # of a wheel, and as Blender says it
+    "linux_x86_64": "linux-x64",
+    "linux_aarch64": "linux-arm64",
+    "win_amd64": "windows-x64",
+    "win_arm64": "windows-arm64",
+    "macosx_x86_64": "macos-x64",
+    "macosx_arm64": "macos-arm64",
+}
 
 
 def files_of(source: Path, below: str = "") -> dict[str, Path]:
@@ -43,10 +50,22 @@ def files_of(source: Path, below: str = "") -> dict[str, Path]:
 
 def platform_of(wheel: Path) -> str:
     """Platform of a wheel in Blender's terms."""
-    tag = re.sub(r"^manylinux(_\d+_\d+|\d+)_", "linux_", wheel.stem.split("-")[-1].split(".")[0])
+    tag = re.sub(r"^(?:many(linux)(?:_\d+_\d+|\d+)|(macosx)_\d+_\d+)_", r"\1\2_", wheel.stem.split("-")[-1].split(".")[0])
     if tag not in PLATFORMS:
-        raise OSError(f"{wheel}: Blender runs on no platform `{tag}`; build the wheel for {' or '.join(PLATFORMS)}")
+        raise OSError(f"{wheel}: `{tag}` is no platform of a Blender extension; take wheels for {', '.join(PLATFORMS)}")
     return PLATFORMS[tag]
+
+
+def by_platform(wheels: list[Path]) -> dict[str, Path]:
+    """Platform -> its wheel, in order."""
+    found = {}
+    for wheel in wheels:
+        other = found.setdefault(platform_of(wheel), wheel)
+        if other != wheel:
+            raise OSError(f"{wheel}: {other.name} is for {platform_of(wheel)}, too; name one wheel for each platform")
+        if wheel.name.split("-")[1] != wheels[0].name.split("-")[1]:
+            raise OSError(f"{wheel}: not of the version of {wheels[0].name}; build the wheels from one commit")
+    return dict(sorted(found.items()))
 
 
 def built_wheel() -> Path:
@@ -60,14 +79,16 @@ def built_wheel() -> Path:
     return found[0]
 
 
-def manifest_with(manifest: str, wheel: Path) -> bytes:
-    """A manifest with the wheel added before its first table."""
-    lines = f'platforms = ["{platform_of(wheel)}"]\nwheels = ["./wheels/{wheel.name}"]\n\n'
+def manifest_with(manifest: str, wheels: dict[str, Path]) -> bytes:
+    """A manifest with the wheels added before its first table."""
+    names = ", ".join(f'"./wheels/{wheel.name}"' for wheel in wheels.values())
+    platforms = ", ".join(f'"{platform}"' for platform in wheels)
+    lines = f"platforms = [{platforms}]\nwheels = [{names}]\n\n"
     head, table, tail = manifest.replace("\r\n", "\n").partition("\n[permissions]")
     return f"{head.rstrip()}\n{lines}{table.lstrip()}{tail}".encode()
 
 
-def build(name: str, folder: Path, wheel: Path) -> Path:
+def build(name: str, folder: Path, wheels: dict[str, Path]) -> Path:
     """Writes `NAME-VERSION.zip` into a folder and returns its path."""
     source = HERE / name
     written = (source / "blender_manifest.toml").read_text(encoding="utf-8")
@@ -77,8 +98,8 @@ def build(name: str, folder: Path, wheel: Path) -> Path:
     folder.mkdir(parents=True, exist_ok=True)
     target = folder / f"{manifest['id']}-{manifest['version']}.zip"
     contents = {inside: path.read_bytes().replace(b"\r\n", b"\n") for inside, path in files_of(source).items()}
-    contents["blender_manifest.toml"] = manifest_with(written, wheel)
-    contents[f"wheels/{wheel.name}"] = wheel.read_bytes()
+    contents["blender_manifest.toml"] = manifest_with(written, wheels)
+    contents |= {f"wheels/{wheel.name}": wheel.read_bytes() for wheel in wheels.values()}
     with zipfile.ZipFile(target, "w") as out:
         for inside, content in sorted(contents.items()):
             entry = zipfile.ZipInfo(inside, DATE)
@@ -90,17 +111,17 @@ def build(name: str, folder: Path, wheel: Path) -> Path:
 def main(words=None) -> int:
     parser = argparse.ArgumentParser(prog="build_zips", description="Builds the zips of the Blender extensions")
     parser.add_argument("names", nargs="*", default=EXTENSIONS, metavar="NAME", help=f"{' or '.join(EXTENSIONS)}; both unless given")
-    told = "the wheel to bring along; default PONG_WHEEL, or the one in target/python/wheel"
-    parser.add_argument("--wheel", type=Path, metavar="FILE", help=told)
+    told = "the wheels to bring along, one for each platform; default PONG_WHEEL, or the one in target/python/wheel"
+    parser.add_argument("--wheel", type=Path, action="extend", nargs="+", metavar="FILE", help=told)
     parser.add_argument("-o", "--output", type=Path, default=Path("target/blender"), metavar="DIR", help="default target/blender")
     given = parser.parse_args(words)
     unknown = [name for name in given.names if name not in EXTENSIONS]
     if unknown:
         parser.error(f"there is no extension {unknown[0]}; choose from {', '.join(EXTENSIONS)}")
     try:
-        wheel = given.wheel or built_wheel()
+        wheels = by_platform(given.wheel or [built_wheel()])
         for name in given.names:
-            print(build(name, given.output, wheel))
+            print(build(name, given.output, wheels))
     except OSError as fault:
         print(f"build_zips: {fault}", file=sys.stderr)
         return 1

@@ -102,7 +102,7 @@ const char *pong_last_message(void);
 /* ---- Version --------------------------------------------------------------------------------------------- */
 
 /// Hash of every layout in this header; see PONG_CHECK_ABI().
-#define PONG_LAYOUT_HASH 0xf39827e9238b1f23ULL
+#define PONG_LAYOUT_HASH 0xa8150a848c11cca7ULL
 
 /// Checks that this header fits the library: call it first.
 #define PONG_CHECK_ABI() pong_check_abi(PONG_ABI_VERSION, PONG_LAYOUT_HASH)
@@ -1800,6 +1800,18 @@ typedef struct pong_slow_input {
     double angular_acceleration[3];
 } pong_slow_input;
 
+/// Velocity that an impulse on one jointed group gives another one, because joints connect them.
+typedef struct pong_slow_coupling {
+    /// The group that moves.
+    struct pong_interface_id of;
+    /// The group that gets the impulse.
+    struct pong_interface_id by;
+    /// Velocity of the origin of `of` (linear, then angular), along its axes, per impulse on `by` (linear, then angular,
+    /// about its origin), along the axes of `by`; 1/kg, 1/(kg m) and 1/(kg m^2), by rows. That of `by` per impulse on
+    /// `of` is the transpose.
+    double mobility[36];
+} pong_slow_coupling;
+
 /// Warnings of a frame of a slow host: a sum of PONG_SLOW_....
 typedef uint32_t pong_slow_warnings;
 
@@ -1875,6 +1887,16 @@ pong_status pong_create_slow_host(const struct pong_world *world,
 /// Destroys a slow host. NULL is allowed and does nothing. No other call on it may follow. PONG_STATUS_BUSY and
 /// PONG_STATUS_WORKER_LEFT as for pong_destroy_world().
 pong_status pong_destroy_slow_host(struct pong_slow_host *host);
+
+/// Sets the couplings of jointed groups for the frames that are evaluated from now on: all `n` of them, in place of those of
+/// the last call. Groups that are not coupled do not move by the impulses of each other. Give them anew where the joints
+/// have moved. With n = 0 `couplings` may be NULL.
+///
+/// PONG_STATUS_BAD_VALUE: a coupling of a group with itself, given twice, or not finite; the couplings stay as they were.
+/// That its groups are not jointed, or that the whole mobility has a negative eigenvalue, says pong_evaluate_slow().
+pong_status pong_set_slow_couplings(struct pong_slow_host *host,
+                                    const struct pong_slow_coupling *couplings,
+                                    size_t n);
 
 /// Computes the wrenches to hold over a frame of `length`, s: the time until the next call. `inputs` has one entry for
 /// each movable group of the world, in any order. Affects no later evaluate or commit; after a failure there is no frame

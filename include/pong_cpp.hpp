@@ -65,6 +65,7 @@ using Potential = pong_potential;
 using SurfaceSlope = pong_surface_slope;
 using SlowSettings = pong_slow_settings;
 using SlowInput = pong_slow_input;
+using SlowCoupling = pong_slow_coupling;
 using SlowReport = pong_slow_report;
 using SlowDifference = pong_slow_difference;
 using Ledger = pong_ledger;
@@ -591,6 +592,10 @@ public:
     /// Handle for calls that this class does not have.
     pong_slow_host* get() const noexcept { return host_.get(); }
 
+    /// Couplings of jointed groups for the frames evaluated from now on, in place of those before.
+    void set_couplings(const std::vector<SlowCoupling>& couplings) {
+        check(pong_set_slow_couplings(get(), couplings.data(), couplings.size()));
+    }
     /// Computes the wrenches to hold over a frame of `length`, s; `inputs` of every movable group.
     void evaluate(double length, const std::vector<SlowInput>& inputs) {
         check(pong_evaluate_slow(get(), length, inputs.data(), inputs.size()));

@@ -48,6 +48,9 @@ static int leave(void)
     same = same && (_mm_getcsr() & 0x8040u) == (wanted == FLUSHING ? 0x8040u : 0u);
 #endif
     fesetenv(&usual);
+#if defined(__SSE2__)
+    _mm_setcsr(0x1f80u); /* fesetenv() of MinGW leaves it as it is */
+#endif
     return same;
 }
 

@@ -5,6 +5,37 @@
 #include "check.h"
 #include <math.h>
 
+/* Ball and arm as one rigid body that can only rise: an impulse on one lifts both. */
+static inline void slow_couplings(scene *s, pong_slow_host *host, pong_slow_input inputs[3])
+{
+    pong_slow_coupling coupling;
+    pong_wrench wrenches[2];
+    int i;
+    memset(&coupling, 0, sizeof coupling);
+    coupling.of = s->interfaces[0];
+    coupling.by = s->interfaces[0];
+    REFUSED(pong_set_slow_couplings(host, &coupling, 1), BAD_VALUE, "it is one group");
+    coupling.by = s->interfaces[2];
+    OK(pong_set_slow_couplings(host, &coupling, 1));
+    REFUSED(pong_evaluate_slow(host, 0.02, inputs, 3), BAD_VALUE, "is not in joints");
+    coupling.by = s->interfaces[1];
+    coupling.mobility[14] = 0.5;
+    OK(pong_set_slow_couplings(host, &coupling, 1));
+    for (i = 0; i < 2; i += 1) {
+        inputs[i].dynamics = PONG_DYNAMICS_JOINTED;
+        memset(inputs[i].mobility, 0, sizeof inputs[i].mobility);
+        inputs[i].mobility[14] = 0.5;
+        inputs[i].linear_acceleration[2] = -9.81;
+        inputs[i].state.linear_velocity[2] = 0.0;
+    }
+    /* The ball rests under the weight of both. */
+    inputs[0].state.position[2] = 0.1 - 2.0 * 9.81 / 1e4;
+    OK(pong_step_slow(host, 0.02, inputs, 3));
+    OK(pong_get_slow_wrenches(host, s->interfaces, PONG_REFERENCE_FRAME_GROUP, wrenches, 2));
+    TEST(fabs(wrenches[0].force[2] - 2.0 * 9.81) < 1e-6 && wrenches[1].force[2] == 0.0);
+    OK(pong_set_slow_couplings(host, NULL, 0));
+}
+
 /* The ball dropped from 1 mm in frames of 20 ms: it bounces by the law of its contact, whatever the world does
  * meanwhile; saved and restored before the touch, it has the same wrench. */
 static inline void slow_host(scene *s)
@@ -61,6 +92,7 @@ static inline void slow_host(scene *s)
     }
     TEST(peak > 9.81 && peak < 30.0 && fastest < 0.14);
     TEST(fabs(wrench.force[2] - 9.81) < 1.0 && fabs(inputs[0].state.position[2] - 0.099) < 5e-4);
+    slow_couplings(s, host, inputs);
     OK(pong_destroy_slow_host(host));
 }
 

@@ -13,7 +13,7 @@ use crate::pair_monitor::{pong_contact_change, pong_pair_peaks};
 use crate::report::{pong_ledger, pong_report};
 use crate::seal::pong_seal_report;
 use crate::slopes::{pong_potential, pong_surface_slope};
-use crate::slow_input::pong_slow_input;
+use crate::slow_input::{pong_slow_coupling, pong_slow_input};
 use crate::slow_report::{pong_slow_difference, pong_slow_report};
 use crate::slow_settings::pong_slow_settings;
 use crate::states::pong_state;
@@ -99,6 +99,7 @@ layouts! {
     pong_slow_input {
         interface, state, dynamics, reserved, mass, mobility, linear_acceleration, angular_acceleration,
     }
+    pong_slow_coupling { of, by, mobility }
     pong_slow_report {
         substeps, substeps_wanted, evaluations, warnings, flags, contacts, groups, reserved_flags, rate, theta_measured,
         inserted, reserved,

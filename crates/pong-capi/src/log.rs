@@ -7,7 +7,7 @@ use crate::handle::{Inner, pong_world};
 use crate::pointers::{Out, one, text};
 use crate::status::pong_status;
 use pong_record::{LONGEST_WAIT, LogError, RecordOptions, RecordStatus, Recorder, WhenFull};
-use pong_threads::without_signals;
+use pong_threads::system::{lower_priority, without_signals};
 use std::ffi::c_char;
 use std::path::Path;
 use std::time::Duration;
@@ -265,16 +265,4 @@ impl From<LogError> for Failure {
 
 fn no_log() -> Failure {
     Failure::new(pong_status::WrongPhase, "log: there is none; begin one with pong_start_log()")
-}
-
-/// Gives the calling thread normal priority. A new thread inherits the real-time priority of its creator, and
-/// writing to disk must not delay the host's next frame.
-fn lower_priority() {
-    #[cfg(target_os = "linux")]
-    // SAFETY: a system call with a valid struct, for the calling thread. If it fails, the thread keeps its
-    // priority.
-    unsafe {
-        let none: libc::sched_param = std::mem::zeroed();
-        libc::sched_setscheduler(0, libc::SCHED_OTHER, &none);
-    }
 }

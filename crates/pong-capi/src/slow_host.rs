@@ -7,7 +7,7 @@ use crate::ids::pong_interface_id;
 use crate::interfaces::too_small;
 use crate::law_adapters::LawFaults;
 use crate::pointers::{Out, OutArray, apart, array, one};
-use crate::slow_input::pong_slow_input;
+use crate::slow_input::{pong_slow_coupling, pong_slow_input};
 use crate::slow_report::{pong_slow_difference, pong_slow_report};
 use crate::slow_settings::pong_slow_settings;
 use crate::status::pong_status;
@@ -78,6 +78,25 @@ pub unsafe extern "C" fn pong_destroy_slow_host(host: *mut pong_slow_host) -> po
         let host = unsafe { Box::from_raw(host) };
         let slow = host.inner.into_inner().unwrap_or_else(PoisonError::into_inner);
         end_workers(&mut slow.host.into_world(), "slow host")
+    })
+}
+
+/// Sets the couplings of jointed groups for the frames that are evaluated from now on: all `n` of them, in place of those of
+/// the last call. Groups that are not coupled do not move by the impulses of each other. Give them anew where the joints
+/// have moved. With n = 0 `couplings` may be NULL.
+///
+/// PONG_STATUS_BAD_VALUE: a coupling of a group with itself, given twice, or not finite; the couplings stay as they were.
+/// That its groups are not jointed, or that the whole mobility has a negative eigenvalue, says pong_evaluate_slow().
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pong_set_slow_couplings(
+    host: *mut pong_slow_host,
+    couplings: *const pong_slow_coupling,
+    n: usize,
+) -> pong_status {
+    with_host(host, |slow| {
+        let couplings = array(couplings, n, "couplings")?;
+        let couplings: Vec<_> = couplings.iter().map(pong_slow_coupling::coupling).collect();
+        Ok(slow.host.set_couplings(&couplings)?)
     })
 }
 

@@ -5,7 +5,7 @@ use crate::ids::pong_interface_id;
 use crate::states::pong_state;
 use crate::status::pong_status;
 use crate::step_plan::pong_mass;
-use pong_slow::{Dynamics, GroupInput};
+use pong_slow::{Coupling, Dynamics, GroupInput};
 
 /// Answer of a movable group to an impulse: PONG_DYNAMICS_...; 0 is none of them and refused.
 pub type pong_dynamics = u32;
@@ -59,11 +59,7 @@ impl pong_slow_input {
                     mass_center: self.mass.mass_center,
                 }
             }
-            PONG_DYNAMICS_JOINTED => Dynamics::Jointed {
-                mobility: std::array::from_fn(|row| {
-                    std::array::from_fn(|column| self.mobility[6 * row + column])
-                }),
-            },
+            PONG_DYNAMICS_JOINTED => Dynamics::Jointed { mobility: rows(&self.mobility) },
             PONG_DYNAMICS_PRESCRIBED => Dynamics::Prescribed,
             other => {
                 return refused(format!("inputs[{index}].dynamics: it is {other}; give PONG_DYNAMICS_..."));
@@ -77,4 +73,30 @@ impl pong_slow_input {
             angular_acceleration: self.angular_acceleration,
         })
     }
+}
+
+/// Velocity that an impulse on one jointed group gives another one, because joints connect them.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct pong_slow_coupling {
+    /// The group that moves.
+    pub of: pong_interface_id,
+    /// The group that gets the impulse.
+    pub by: pong_interface_id,
+    /// Velocity of the origin of `of` (linear, then angular), along its axes, per impulse on `by` (linear, then angular,
+    /// about its origin), along the axes of `by`; 1/kg, 1/(kg m) and 1/(kg m^2), by rows. That of `by` per impulse on
+    /// `of` is the transpose.
+    pub mobility: [f64; 36],
+}
+
+impl pong_slow_coupling {
+    /// The coupling of the crate, which checks the numbers.
+    pub(crate) fn coupling(&self) -> Coupling {
+        Coupling { of: self.of.id(), by: self.by.id(), mobility: rows(&self.mobility) }
+    }
+}
+
+/// A 6×6 matrix by rows.
+fn rows(numbers: &[f64; 36]) -> [[f64; 6]; 6] {
+    std::array::from_fn(|row| std::array::from_fn(|column| numbers[6 * row + column]))
 }

@@ -15,6 +15,13 @@ const LONGEST_WAIT: Duration = Duration::from_millis(5);
 /// Priority above everything that is not real-time, and below threaded interrupts (50).
 const FIFO_PRIORITY: u8 = 40;
 
+/// The two kinds of sleep that are measured: without and with a real-time priority.
+const SLEEPS: [&str; 2] = if cfg!(target_os = "linux") {
+    ["clock_nanosleep", "clock_nanosleep, SCHED_FIFO"]
+} else {
+    ["sleep", "sleep, SCHED_FIFO"]
+};
+
 /// Times from the moment at which a thread should run to the moment at which it did.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Latency {
@@ -80,13 +87,13 @@ pub fn try_fifo() -> Result<(), String> {
 /// Fails if the system starts no thread.
 pub fn measure(duration: Duration, fifo_is_granted: bool) -> Result<Vec<Latency>, String> {
     let mut latencies = vec![
-        sleeping("clock_nanosleep", duration, None)?,
+        sleeping(SLEEPS[0], duration, None)?,
         waking("parked worker", duration, None, Workers::Parked)?,
         waking("spinning worker", duration, None, Workers::Spinning)?,
     ];
     if fifo_is_granted {
         let fifo = Some(FIFO_PRIORITY);
-        latencies.push(sleeping("clock_nanosleep, SCHED_FIFO", duration, fifo)?);
+        latencies.push(sleeping(SLEEPS[1], duration, fifo)?);
         latencies.push(waking("parked worker, SCHED_FIFO", duration, fifo, Workers::Parked)?);
     }
     Ok(latencies)

@@ -1,8 +1,9 @@
 //! Real-time properties of a machine: cores, clocks, limits and priorities from Linux's `/proc` and `/sys`,
 //! and the measured time in which a thread wakes up. The purpose of each item, and the cure where it is not
-//! granted, is in docs/realtime.md.
+//! granted, is in docs/realtime.md. Other systems are asked for what a process can ask
+//! ([`examine_elsewhere`]).
 //!
-//! [`examine`] reads, [`measure`] measures; neither leaves a lasting change.
+//! [`examine_this_machine`] reads, [`measure`] measures; neither leaves a lasting change.
 
 #![forbid(unsafe_code)]
 
@@ -13,19 +14,34 @@ mod finding;
 mod kernel;
 mod latency;
 mod limits;
+mod platform;
 
 pub use cpu_set::CpuSet;
 pub use files::{Files, ThisMachine};
 pub use finding::{Finding, State};
 pub use latency::{BIN_BOUNDS_US, Latency, measure, try_fifo};
+pub use platform::examine_elsewhere;
 
-/// All findings that can be read. `fifo` is the answer of the system to a thread that asked for SCHED_FIFO,
+use pong_threads::system::{GRANTS, cores};
+
+/// All findings about the machine that the program runs on. `fifo` is the answer of the system to a thread that asked
+/// for SCHED_FIFO, from [`try_fifo`].
+pub fn examine_this_machine(fifo: Result<(), String>) -> Vec<Finding> {
+    let mut findings = vec![platform::platform()];
+    findings.extend(match cfg!(target_os = "linux") {
+        true => examine(&ThisMachine, fifo),
+        false => examine_elsewhere(&GRANTS, cores().len(), fifo),
+    });
+    findings.push(instructions());
+    findings
+}
+
+/// All findings that Linux's files tell. `fifo` is the answer of the system to a thread that asked for SCHED_FIFO,
 /// from [`try_fifo`].
 pub fn examine(files: &impl Files, fifo: Result<(), String>) -> Vec<Finding> {
     let mut findings = cores::examine(files);
     findings.extend(limits::examine(files, fifo));
     findings.extend(kernel::examine(files));
-    findings.push(instructions());
     findings
 }
 

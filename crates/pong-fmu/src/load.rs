@@ -55,6 +55,8 @@ pub(crate) fn folder_of_uri(uri: &str) -> Result<PathBuf, String> {
     if !path.starts_with('/') {
         return Err(refused());
     }
+    // `/C:/folder` of Windows.
+    let path = if cfg!(windows) { &path[1..] } else { path };
     let mut bytes = Vec::new();
     let mut left = path.as_bytes();
     while let [first, rest @ ..] = left {
@@ -82,7 +84,8 @@ mod tests {
     #[test]
     fn uris_are_paths() {
         for uri in ["file:///tmp/a%20b/r", "file:/tmp/a%20b/r", "file://localhost/tmp/a b/r"] {
-            assert_eq!(folder_of_uri(uri).unwrap(), Path::new("/tmp/a b/r"), "{uri}");
+            let path = if cfg!(windows) { "tmp/a b/r" } else { "/tmp/a b/r" };
+            assert_eq!(folder_of_uri(uri).unwrap(), Path::new(path), "{uri}");
         }
         for uri in
             ["http://x/r", "/tmp/r", "file://host/r", "file:///tmp/%4", "file:///tmp/%zz", "file:///%ff", ""]

@@ -2,7 +2,7 @@
 
 use crate::contents::{CONTENTS_FILE, Contents, SCENE_FILE};
 use crate::description::{self, describe};
-use crate::library::check_library;
+use crate::library;
 use crate::names::identifier;
 use crate::unit::{Inputs, Unit};
 use crate::version::Fmi;
@@ -48,7 +48,7 @@ const THIRD_PARTY: &str = include_str!("../../../THIRD_PARTY_LICENSES.md");
 /// # Errors
 /// Every fault of scene, models or library, a line for each: thing, cause and cure.
 pub fn package(path: &Path, library: &[u8], fmi: Fmi, options: &Options) -> Result<Package, String> {
-    check_library(library).map_err(|line| format!("shared library: {line}"))?;
+    let platform = library::check(library).map_err(|line| format!("shared library: {line}"))?;
     let text = pong_model::files::read_text(path)
         .map_err(|reason| format!("{}: cannot be read: {reason}; name a scene file", path.display()))?;
     let folder = path.parent().unwrap_or(Path::new(""));
@@ -79,11 +79,11 @@ pub fn package(path: &Path, library: &[u8], fmi: Fmi, options: &Options) -> Resu
     let description = describe(&unit, fmi, &identifier, &token);
     let mut zip = Zip::default();
     zip.add("modelDescription.xml", description.as_bytes(), false)?;
-    let platform = match fmi {
-        Fmi::V2 => "linux64",
-        Fmi::V3 => "x86_64-linux",
+    let place = match fmi {
+        Fmi::V2 => platform.fmi2,
+        Fmi::V3 => platform.fmi3,
     };
-    zip.add(&format!("binaries/{platform}/{identifier}.so"), library, true)?;
+    zip.add(&format!("binaries/{place}/{identifier}.{}", platform.ending), library, true)?;
     for (path, bytes) in &files {
         zip.add(&format!("resources/{path}"), bytes, false)?;
     }

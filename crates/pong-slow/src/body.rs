@@ -2,9 +2,8 @@
 
 use crate::chart::{self, Axes, angular, linear, six};
 use crate::error::SlowError;
-use crate::input::{Dynamics, GroupInput, root_of, vector};
-use crate::mobility::Root;
-use nalgebra::Vector6;
+use crate::input::{Dynamics, GroupInput, mobility_of, vector};
+use nalgebra::{Matrix6, Vector6};
 use pong_engine::{InterfaceId, State};
 use pong_geometry::{Pose, Twist, Vec3, Wrench};
 
@@ -18,8 +17,6 @@ pub(crate) struct Body {
     dynamics: Dynamics,
     /// Mass centre of a free body in the group frame, m; zero otherwise.
     mass_center: Vec3,
-    /// Root of the mobility.
-    pub root: Root,
     /// Pose of the frame that moves (`chart.rs`).
     pub pose: Pose,
     /// Leading pose: `pose` moved on by (1 − θ)·T·velocity.
@@ -40,8 +37,6 @@ impl Body {
         };
         let arm = group.orientation * mass_center;
         let pose = Pose { position: group.position + arm, orientation: group.orientation };
-        let rotation = group.orientation.to_rotation_matrix().into_inner();
-        let root = root_of(&input.dynamics, &rotation, &name)?;
         let (given, turning) = (vector(input.linear_acceleration), vector(input.angular_acceleration));
         let (velocity, acceleration) = match axes {
             Axes::Common => (six(twist.at(&arm), twist.angular), six(given, turning)),
@@ -54,18 +49,7 @@ impl Body {
         };
         let dynamics = input.dynamics;
         let interface = input.interface;
-        Ok(Self {
-            interface,
-            name,
-            axes,
-            dynamics,
-            mass_center,
-            root,
-            pose,
-            leading: pose,
-            velocity,
-            acceleration,
-        })
+        Ok(Self { interface, name, axes, dynamics, mass_center, pose, leading: pose, velocity, acceleration })
     }
 
     /// Sets the leading pose for a frame of this length, s.
@@ -73,25 +57,15 @@ impl Body {
         self.leading = self.moved(&self.pose, &(self.velocity * ((1.0 - theta) * length)));
     }
 
-    /// Moves the body by a frame in which the host applies this impulse.
-    pub fn advance(&mut self, impulse: &Vector6<f64>, theta: f64, length: f64) -> Result<(), SlowError> {
-        let end = self.velocity_after(impulse, length);
-        let by = (self.velocity + (end - self.velocity) * theta) * length;
-        self.pose = self.moved(&self.pose, &by);
-        self.velocity = end;
+    /// Mobility in the chart; `None` of a body that contact does not move.
+    pub fn mobility(&self) -> Result<Option<Matrix6<f64>>, SlowError> {
         let rotation = self.pose.orientation.to_rotation_matrix().into_inner();
-        self.root = root_of(&self.dynamics, &rotation, &self.name)?;
-        Ok(())
+        mobility_of(&self.dynamics, &rotation, &self.name)
     }
 
-    /// Velocity at the end of a frame in which the host applies this impulse.
-    pub fn velocity_after(&self, impulse: &Vector6<f64>, length: f64) -> Vector6<f64> {
-        self.velocity + self.acceleration * length + self.root.velocity(impulse)
-    }
-
-    /// Returns true if contact moves the body.
-    pub fn moves(&self) -> bool {
-        self.root.rank > 0
+    /// Returns true if joints hold the body.
+    pub fn is_jointed(&self) -> bool {
+        matches!(self.dynamics, Dynamics::Jointed { .. })
     }
 
     /// Pose after a displacement.
@@ -138,15 +112,5 @@ impl Body {
         let force = linear(&turned);
         let arm = self.pose.orientation * self.mass_center;
         Wrench { force, moment: angular(&turned) + arm.cross(&force) }
-    }
-
-    /// Energy ½·u·M·u of a velocity, J.
-    pub fn kinetic(&self, velocity: &Vector6<f64>) -> f64 {
-        0.5 * self.root.coordinates(velocity).norm_squared()
-    }
-
-    /// Potential of the forces without contact after a displacement from the leading pose, J.
-    pub fn potential(&self, displacement: &Vector6<f64>) -> f64 {
-        -self.root.coordinates(&self.acceleration).dot(&self.root.coordinates(displacement))
     }
 }

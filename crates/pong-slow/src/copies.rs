@@ -4,6 +4,7 @@ use crate::body::Body;
 use crate::chart;
 use crate::contact_set::{Row, axes_of, groups, place};
 use crate::error::SlowError;
+use crate::system::System;
 use nalgebra::Vector6;
 use pong_engine::{StatusBits, World};
 use pong_geometry::{Pose, Vec3};
@@ -78,17 +79,21 @@ pub(crate) struct Division {
 /// Follows the copies through the frame.
 pub(crate) fn follow(
     world: &mut World,
-    bodies: &[Body],
+    system: &System,
     mut copies: Vec<Copy>,
     division: Division,
 ) -> Result<Outcome, SlowError> {
+    let bodies = &system.bodies[..];
     let step = division.length / f64::from(division.substeps);
     let start: Vec<Vector6<f64>> = copies.iter().map(|copy| copy.velocity).collect();
+    // Impulses of the contacts in this frame, and those with half a substep more.
+    let mut impulses = vec![Vector6::zeros(); bodies.len()];
+    let mut ahead = impulses.clone();
     let held: Vec<Vector6<f64>> = copies.iter().map(|copy| copy.impulse).collect();
     let mut seen = Seen::default();
     place(world, bodies, |index| (copies[index].pose, copies[index].velocity))?;
     seen.flags = seen.flags.union(world.step()?.status);
-    if let Some(rate) = seen.look(world, bodies, &copies)
+    if let Some(rate) = seen.look(world, system, &copies)
         && rate > division.rate_square_max
     {
         return Ok(Outcome::TooCoarse(rate));
@@ -96,31 +101,37 @@ pub(crate) fn follow(
     let mut forces = forces(world, bodies, &copies)?;
     for substep in 1..=division.substeps {
         let time = step * f64::from(substep);
+        let half_substep = 0.5 * step;
+        for index in 0..bodies.len() {
+            impulses[index] += forces[index] * half_substep;
+            ahead[index] = impulses[index] + forces[index] * half_substep;
+        }
+        let gained = [system.gains(&impulses), system.gains(&ahead)];
         for (index, body) in bodies.iter().enumerate() {
             let copy = &mut copies[index];
-            copy.impulse += forces[index] * (0.5 * step);
-            let half = velocity(body, &start[index], &(copy.impulse - held[index]), time - 0.5 * step);
-            let by = half * step;
+            let by = velocity(body, &start[index], &gained[0][index], time - half_substep) * step;
             copy.pose = body.moved(&copy.pose, &by);
             copy.displacement += by;
             // Velocity of the end with the force of the start: damping and friction are evaluated with it.
-            let ahead = copy.impulse + forces[index] * (0.5 * step);
-            copy.velocity = velocity(body, &start[index], &(ahead - held[index]), time);
+            copy.velocity = velocity(body, &start[index], &gained[1][index], time);
         }
         place(world, bodies, |index| (copies[index].pose, copies[index].velocity))?;
         seen.flags = seen.flags.union(world.step()?.status);
-        if let Some(rate) = seen.look(world, bodies, &copies)
+        if let Some(rate) = seen.look(world, system, &copies)
             && rate > division.rate_square_max
         {
             return Ok(Outcome::TooCoarse(rate));
         }
         forces = self::forces(world, bodies, &copies)?;
+        impulses.iter_mut().zip(&forces).for_each(|(impulse, force)| *impulse += force * half_substep);
+        let gained = system.gains(&impulses);
         for (index, body) in bodies.iter().enumerate() {
-            let copy = &mut copies[index];
-            copy.impulse += forces[index] * (0.5 * step);
-            copy.velocity = velocity(body, &start[index], &(copy.impulse - held[index]), time);
+            copies[index].velocity = velocity(body, &start[index], &gained[index], time);
         }
-        add_friction(world, bodies, &mut copies, step);
+        add_friction(world, system, &mut copies, step);
+    }
+    for (index, copy) in copies.iter_mut().enumerate() {
+        copy.impulse = held[index] + impulses[index];
     }
     let touches = touches(world, &copies);
     let Seen { touched, met_another, rate_square, flags, .. } = seen;
@@ -128,7 +139,7 @@ pub(crate) fn follow(
 }
 
 fn velocity(body: &Body, start: &Vector6<f64>, gained: &Vector6<f64>, time: f64) -> Vector6<f64> {
-    start + body.acceleration * time + body.root.velocity(gained)
+    start + body.acceleration * time + gained
 }
 
 fn forces(world: &World, bodies: &[Body], copies: &[Copy]) -> Result<Vec<Vector6<f64>>, SlowError> {
@@ -137,14 +148,15 @@ fn forces(world: &World, bodies: &[Body], copies: &[Copy]) -> Result<Vec<Vector6
     bodies.iter().zip(copies).map(of).collect()
 }
 
-fn add_friction(world: &World, bodies: &[Body], copies: &mut [Copy], step: f64) {
+fn add_friction(world: &World, system: &System, copies: &mut [Copy], step: f64) {
     for contact in world.contacts_iter() {
         let (a, b) = groups(&contact);
         let push = contact.friction_force * step;
         let taken = -push.dot(&contact.slip_velocity);
-        let share = if bodies[a].moves() && bodies[b].moves() { 0.5 } else { 1.0 };
+        let share = if system.moves(a) && system.moves(b) { 0.5 } else { 1.0 };
         for (body, push) in [(a, push), (b, -push)] {
-            let impulse = chart::of_force_at(bodies[body].axes, &copies[body].pose, &contact.point, &push);
+            let impulse =
+                chart::of_force_at(system.bodies[body].axes, &copies[body].pose, &contact.point, &push);
             copies[body].friction += impulse;
             copies[body].rubbed += share * taken;
         }
@@ -188,7 +200,7 @@ struct Seen {
 
 impl Seen {
     /// Looks at the contacts of the frame; returns the squared rate if it was computed again.
-    fn look(&mut self, world: &World, bodies: &[Body], copies: &[Copy]) -> Option<f64> {
+    fn look(&mut self, world: &World, system: &System, copies: &[Copy]) -> Option<f64> {
         let mut now: Vec<(usize, usize)> = Vec::new();
         let mut total = 0.0;
         for (contact, tangent) in world.contacts_iter().zip(world.normal_tangents()) {
@@ -202,21 +214,21 @@ impl Seen {
         now.sort_unstable();
         now.dedup();
         if now != self.touching {
-            self.change_partners(now, bodies);
+            self.change_partners(now, system);
         }
         if total <= 1.02 * self.assessed {
             return None;
         }
         self.assessed = total;
-        let rate = rate_square(world, bodies, copies);
+        let rate = rate_square(world, system, copies);
         self.rate_square = self.rate_square.max(rate);
         Some(rate)
     }
 
-    fn change_partners(&mut self, now: Vec<(usize, usize)>, bodies: &[Body]) {
+    fn change_partners(&mut self, now: Vec<(usize, usize)>, system: &System) {
         self.ended.extend(self.touching.iter().filter(|pair| !now.contains(pair)));
         let shares = |one: &(usize, usize), other: &(usize, usize)| {
-            let within = |body: usize| bodies[body].moves() && (body == other.0 || body == other.1);
+            let within = |body: usize| system.moves(body) && (body == other.0 || body == other.1);
             one != other && (within(one.0) || within(one.1))
         };
         for pair in &now {
@@ -232,7 +244,7 @@ impl Seen {
 
 /// Squared rate of the fastest vibration of the bodies on the contacts of the frame, 1/s², or of the fastest decay by
 /// damping if that is faster.
-fn rate_square(world: &World, bodies: &[Body], copies: &[Copy]) -> f64 {
+fn rate_square(world: &World, system: &System, copies: &[Copy]) -> f64 {
     let poses: Vec<Pose> = copies.iter().map(|copy| copy.pose).collect();
     let mut rows: Vec<(Row, f64)> = Vec::new();
     let mut damping_time: f64 = 0.0;
@@ -246,54 +258,68 @@ fn rate_square(world: &World, bodies: &[Body], copies: &[Copy]) -> f64 {
         let across = if contact.friction_force == Vec3::zeros() { 0.0 } else { STICKING_SHARE * k };
         for (direction, k) in axes_of(&contact.normal).iter().zip([k, across, across]) {
             if k > 0.0 {
-                rows.push((Row::new(bodies, &poses, groups(&contact), [&contact.point; 2], direction), k));
+                rows.push((
+                    Row::new(&system.bodies, &poses, groups(&contact), [&contact.point; 2], direction),
+                    k,
+                ));
             }
         }
     }
-    let fastest = MARGIN * largest_eigenvalue(bodies, &rows);
+    let fastest = MARGIN * largest_eigenvalue(system, &rows);
     let decay = 0.5 * damping_time * fastest;
     fastest.max(decay * decay)
 }
 
-/// A spring between two bodies, in coordinates in which both masses are one.
+/// A spring in coordinates z in which all masses are one.
 struct Spring {
-    on: [Vector6<f64>; 2],
-    bodies: [usize; 2],
+    /// Stretch per coordinate of an assembly: the place of its first coordinate, and one number for each.
+    on: Vec<(usize, Vec<f64>)>,
     /// Stiffness, N/m.
     stiffness: f64,
 }
 
+impl Spring {
+    fn of(system: &System, starts: &[usize], row: &Row, stiffness: f64) -> Self {
+        let mut on: Vec<(usize, Vec<f64>)> = Vec::new();
+        for (body, impulse) in [(row.a, &row.on_a), (row.b, &row.on_b)] {
+            let Some(home) = system.home(body) else { continue };
+            let start = starts[home];
+            let place = on.iter().position(|part| part.0 == start).unwrap_or_else(|| {
+                on.push((start, vec![0.0; system.assemblies[home].rank()]));
+                on.len() - 1
+            });
+            system.add_coordinates_of_impulse(&mut on[place].1, body, impulse);
+        }
+        Self { on, stiffness }
+    }
+}
+
 /// Largest eigenvalue of Bᵀ·K·B by power iteration.
-fn largest_eigenvalue(bodies: &[Body], rows: &[(Row, f64)]) -> f64 {
-    let springs: Vec<Spring> = rows
-        .iter()
-        .map(|(row, stiffness)| {
-            let on = |body: usize, on: &Vector6<f64>| bodies[body].root.coordinates_of_impulse(on);
-            Spring {
-                on: [on(row.a, &row.on_a), on(row.b, &row.on_b)],
-                bodies: [row.a, row.b],
-                stiffness: *stiffness,
-            }
-        })
-        .collect();
+fn largest_eigenvalue(system: &System, rows: &[(Row, f64)]) -> f64 {
+    let (starts, size) = system.starts();
+    let springs: Vec<Spring> =
+        rows.iter().map(|(row, stiffness)| Spring::of(system, &starts, row, *stiffness)).collect();
     // Unlike numbers, so that no mode is missed by symmetry.
-    let mut z: Vec<Vector6<f64>> = (0..bodies.len())
-        .map(|i| Vector6::from_fn(|j, _| 1.0 + 0.37 * ((7 * i + 3 * j) % 5) as f64))
-        .collect();
+    let mut z: Vec<f64> = (0..size).map(|i| 1.0 + 0.37 * ((7 * (i / 6) + 3 * (i % 6)) % 5) as f64).collect();
+    let norm_of = |z: &[f64]| z.iter().map(|x| x * x).sum::<f64>().sqrt();
     let mut eigenvalue = 0.0;
     for _ in 0..ITERATIONS {
-        let norm = z.iter().map(Vector6::norm_squared).sum::<f64>().sqrt();
+        let norm = norm_of(&z);
         if norm == 0.0 {
             return 0.0;
         }
-        let mut next = vec![Vector6::zeros(); bodies.len()];
-        for Spring { on, bodies: [a, b], stiffness } in &springs {
-            let stretch = (on[0].dot(&z[*a]) + on[1].dot(&z[*b])) * (stiffness / norm);
-            next[*a] += on[0] * stretch;
-            next[*b] += on[1] * stretch;
+        let mut next = vec![0.0; size];
+        for Spring { on, stiffness } in &springs {
+            let stretch: f64 = parts(on).map(|(place, x)| x * z[place]).sum();
+            parts(on).for_each(|(place, x)| next[place] += x * stretch * (stiffness / norm));
         }
-        eigenvalue = next.iter().map(Vector6::norm_squared).sum::<f64>().sqrt();
+        eigenvalue = norm_of(&next);
         z = next;
     }
     eigenvalue
+}
+
+/// Coordinates of a spring: places and numbers.
+fn parts(on: &[(usize, Vec<f64>)]) -> impl Iterator<Item = (usize, f64)> {
+    on.iter().flat_map(|(start, numbers)| numbers.iter().enumerate().map(move |(i, x)| (start + i, *x)))
 }

@@ -7,7 +7,7 @@ use crate::copies::{Copy, Division, Ends, Outcome, follow};
 use crate::error::SlowError;
 use crate::guard::{Guard, stored};
 use crate::implicit::Step;
-use crate::input::{GroupInput, in_order, require_frame};
+use crate::input::{Coupling, GroupInput, in_order, require_frame};
 use crate::island::{Island, islands};
 use crate::memory::{KeptBody, Memory};
 use crate::prediction::inserted;
@@ -15,6 +15,7 @@ use crate::projection::project;
 use crate::queue::{carry_forward, under_way};
 use crate::report::{FrameStatus, Report};
 use crate::settings::Settings;
+use crate::system::System;
 use nalgebra::Vector6;
 use pong_engine::World;
 use pong_geometry::{Pose, Wrench};
@@ -42,7 +43,7 @@ struct Frame<'f> {
     /// Contact state at the start of the frame.
     block: &'f [u8],
     length: f64,
-    bodies: Vec<Body>,
+    system: System<'f>,
     /// Poses and velocities as the host gave them.
     given: Vec<(Pose, Vector6<f64>)>,
     queues: Vec<VecDeque<Vector6<f64>>>,
@@ -55,14 +56,14 @@ pub(crate) fn compute(
     settings: &Settings,
     (memory, block): (&Memory, &[u8]),
     length: f64,
-    inputs: &[GroupInput],
+    (inputs, couplings): (&[GroupInput], &[Coupling]),
 ) -> Result<Computed, SlowError> {
     require_frame(length)?;
     let inputs = in_order(world, inputs)?;
     // Refuses states that are not finite and quaternions that are not of unit length.
     inputs.iter().try_for_each(|input| world.set_state(input.interface, &input.state))?;
-    let mut frame = Frame::new(world, settings, (memory, block), length, &inputs)?;
-    frame.report.groups = inserted(world, memory, &frame.bodies)?;
+    let mut frame = Frame::new(world, settings, (memory, block), length, (&inputs, couplings))?;
+    frame.report.groups = inserted(world, memory, &frame.system)?;
     frame.report.inserted = frame.report.groups.iter().map(|group| group.inserted).sum();
     frame.measure_theta();
     let ends = frame.follow(world)?;
@@ -75,26 +76,26 @@ impl<'f> Frame<'f> {
         settings: &'f Settings,
         (memory, block): (&'f Memory, &'f [u8]),
         length: f64,
-        inputs: &[&GroupInput],
+        (inputs, couplings): (&[&GroupInput], &'f [Coupling]),
     ) -> Result<Self, SlowError> {
         let (mut bodies, mut given, mut queues) = (Vec::new(), Vec::new(), Vec::new());
         for (index, input) in inputs.iter().enumerate() {
-            let mut body = Body::of(input, world.inspect().group_name(index))?;
+            let body = Body::of(input, world.inspect().group_name(index))?;
             given.push((body.pose, body.velocity));
-            let queue = under_way(memory, index, &body, settings.delay_frames);
-            carry_forward(&mut body, &queue, settings.theta, length)?;
-            body.lead(settings.theta, length);
+            queues.push(under_way(memory, index, &body, settings.delay_frames));
             bodies.push(body);
-            queues.push(queue);
         }
-        Ok(Self { settings, memory, block, length, bodies, given, queues, report: Report::default() })
+        let mut system = System::new(bodies, couplings)?;
+        carry_forward(&mut system, &queues, settings.theta, length)?;
+        system.bodies.iter_mut().for_each(|body| body.lead(settings.theta, length));
+        Ok(Self { settings, memory, block, length, system, given, queues, report: Report::default() })
     }
 
     /// Measures θ from the motion since the last frame, at the body whose velocity changed most.
     fn measure_theta(&mut self) {
         const LEAST: f64 = 1e-11;
         let mut best = 0.0;
-        for (index, body) in self.bodies.iter().enumerate() {
+        for (index, body) in self.system.bodies.iter().enumerate() {
             let Some(kept) = self.memory.of(index, body.axes).filter(|_| body.axes == chart::Axes::Common)
             else {
                 continue;
@@ -105,7 +106,7 @@ impl<'f> Frame<'f> {
             let by = pose.position - kept.given.position - chart::linear(&kept.given_velocity) * length;
             let change = length * gained.norm();
             let size = pose.position.norm() + length * chart::linear(velocity).norm();
-            if change > best && change > LEAST * size && body.moves() {
+            if change > best && change > LEAST * size && self.system.moves(index) {
                 best = change;
                 self.report.theta_measured = Some(by.dot(&gained) / (length * gained.norm_squared()));
             }
@@ -115,21 +116,24 @@ impl<'f> Frame<'f> {
     }
 
     fn copies(&self) -> Vec<Copy> {
+        let kept = |(index, body): (usize, &Body)| self.memory.of(index, body.axes);
+        let kept: Vec<_> = self.system.bodies.iter().enumerate().map(kept).collect();
+        let held_back: Vec<_> =
+            kept.iter().map(|kept| kept.map_or_else(Vector6::zeros, |kept| kept.held_back)).collect();
+        let gains = self.system.gains(&held_back);
         let start = |(index, body): (usize, &Body)| {
-            let kept = self.memory.of(index, body.axes);
-            let offset = kept.map_or_else(Pose::identity, |kept| kept.offset);
-            let impulse = kept.map_or_else(Vector6::zeros, |kept| kept.held_back);
+            let offset = kept[index].map_or_else(Pose::identity, |kept| kept.offset);
             let pose = chart::at_offset(body.axes, &body.leading, &offset);
             Copy {
                 displacement: chart::displacement(body.axes, &body.leading, &pose),
                 pose,
-                velocity: body.velocity + body.root.velocity(&impulse),
-                impulse,
+                velocity: body.velocity + gains[index],
+                impulse: held_back[index],
                 friction: Vector6::zeros(),
-                rubbed: kept.map_or(0.0, |kept| kept.unspent),
+                rubbed: kept[index].map_or(0.0, |kept| kept.unspent),
             }
         };
-        self.bodies.iter().enumerate().map(start).collect()
+        self.system.bodies.iter().enumerate().map(start).collect()
     }
 
     /// Follows the copies with as many substeps as their contacts need.
@@ -144,7 +148,7 @@ impl<'f> Frame<'f> {
                 world.restore_state(self.block)?;
             }
             let division = Division { length: self.length, substeps, rate_square_max };
-            let outcome = follow(world, &self.bodies, self.copies(), division)?;
+            let outcome = follow(world, &self.system, self.copies(), division)?;
             self.report.evaluations += substeps + 1;
             match outcome {
                 Outcome::TooCoarse(rate) => rate_square = rate,
@@ -172,9 +176,9 @@ impl<'f> Frame<'f> {
 
     /// Impulses, what is kept, and the wrenches.
     fn finish(mut self, world: &mut World, ends: Ends) -> Result<Computed, SlowError> {
-        let mut impulses = vec![Vector6::zeros(); self.bodies.len()];
+        let mut impulses = vec![Vector6::zeros(); self.system.bodies.len()];
         // What is kept of each copy: nothing, or its offset with this work of friction, J.
-        let mut keeps = vec![Some(0.0); self.bodies.len()];
+        let mut keeps = vec![Some(0.0); self.system.bodies.len()];
         if self.report.status.unresolved {
             world.restore_state(self.block)?;
             self.implicit(world, &ends, &mut impulses)?;
@@ -184,7 +188,7 @@ impl<'f> Frame<'f> {
         }
         let memory = self.remember(&ends, &impulses, &keeps);
         let wrench = |(body, impulse): (&Body, &Vector6<f64>)| body.wrench_of(impulse, self.length);
-        let wrenches = self.bodies.iter().zip(&impulses).map(wrench).collect();
+        let wrenches = self.system.bodies.iter().zip(&impulses).map(wrench).collect();
         Ok(Computed { memory, report: self.report, wrenches })
     }
 
@@ -196,17 +200,11 @@ impl<'f> Frame<'f> {
         impulses: &[Vector6<f64>],
     ) -> Result<Vec<Island>, SlowError> {
         let mut touched = ends.touched.clone();
-        let landing = self.landing(impulses);
+        let landing = self.system.landing(impulses, self.length);
         self.report.evaluations += 1;
-        touched.extend(springs_at(world, &self.bodies, &landing)?.iter().map(|s| (s.normal.a, s.normal.b)));
-        Ok(islands(&self.bodies, &touched))
-    }
-
-    fn landing(&self, impulses: &[Vector6<f64>]) -> Vec<Pose> {
-        let pose = |(body, impulse): (&Body, &Vector6<f64>)| {
-            body.moved(&body.leading, &(body.velocity_after(impulse, self.length) * self.length))
-        };
-        self.bodies.iter().zip(impulses).map(pose).collect()
+        let springs = springs_at(world, &self.system.bodies, &landing)?;
+        touched.extend(springs.iter().map(|spring| (spring.normal.a, spring.normal.b)));
+        Ok(islands(&self.system, &touched))
     }
 
     /// Impulses that lead nearest to the copies, within the energy that is allowed.
@@ -217,38 +215,36 @@ impl<'f> Frame<'f> {
         impulses: &mut [Vector6<f64>],
         keeps: &mut [Option<f64>],
     ) -> Result<(), SlowError> {
-        for (impulse, copy) in impulses.iter_mut().zip(&ends.copies) {
-            *impulse = copy.impulse;
-        }
-        for island in islands(&self.bodies, &ends.touched) {
-            let nearest = project(&self.bodies, &island, ends, self.length);
-            island.bodies.iter().zip(nearest).for_each(|(&body, impulse)| impulses[body] = impulse);
+        let reached: Vec<_> = ends.copies.iter().map(|copy| copy.impulse).collect();
+        impulses.copy_from_slice(&reached);
+        for island in islands(&self.system, &ends.touched) {
+            let nearest = project(&self.system, &island, &ends.touches, &reached, self.length);
+            island.bodies.iter().for_each(|&body| impulses[body] = nearest[body]);
         }
         let islands = self.islands(world, ends, impulses)?;
         let at_end: Vec<Pose> = ends.copies.iter().map(|copy| copy.pose).collect();
-        let at_start: Vec<Pose> = self.bodies.iter().map(|body| body.leading).collect();
-        let (end, start) =
-            (springs_at(world, &self.bodies, &at_end)?, springs_at(world, &self.bodies, &at_start)?);
+        let at_start: Vec<Pose> = self.system.bodies.iter().map(|body| body.leading).collect();
+        let bodies = &self.system.bodies;
+        let (end, start) = (springs_at(world, bodies, &at_end)?, springs_at(world, bodies, &at_start)?);
         self.report.evaluations += 2;
         for island in &islands {
             let mut guard = Guard {
-                bodies: &self.bodies,
+                system: &self.system,
                 island,
                 copies: &ends.copies,
                 stored: [stored(island, &end), stored(island, &start)],
                 length: self.length,
-                poses: self.landing(impulses),
+                poses: self.system.landing(impulses, self.length),
                 evaluations: 0,
             };
-            let wanted = island.bodies.iter().map(|&body| impulses[body]).collect();
-            let guarded = guard.limit(world, wanted)?;
+            let guarded = guard.limit(world, impulses.to_vec())?;
             self.report.evaluations += guard.evaluations;
             self.report.status.energy_limited |= guarded.limited;
-            let copy_open = !end.iter().any(|spring| crate::guard::touches(island, spring));
+            let copy_open = !end.iter().any(|spring| island.touches(&spring.normal));
             let dropped =
                 copy_open && guarded.open && guarded.host <= guarded.copy + 1e-13 * guarded.copy.abs();
-            for (&body, impulse) in island.bodies.iter().zip(guarded.impulses) {
-                impulses[body] = impulse;
+            for &body in &island.bodies {
+                impulses[body] = guarded.impulses[body];
                 keeps[body] = (!dropped).then_some(guarded.unspent / island.bodies.len() as f64);
             }
         }
@@ -263,27 +259,27 @@ impl<'f> Frame<'f> {
         impulses: &mut [Vector6<f64>],
     ) -> Result<(), SlowError> {
         for island in self.islands(world, ends, impulses)? {
-            let held = vec![Vector6::zeros(); island.bodies.len()];
-            let (bodies, length) = (&self.bodies[..], self.length);
-            let poses = self.landing(impulses);
-            let mut step = Step { bodies, island: &island, length, held: &held, poses, evaluations: 0 };
+            let held = vec![Vector6::zeros(); impulses.len()];
+            let (system, length) = (&self.system, self.length);
+            let poses = system.landing(impulses, length);
+            let mut step = Step { system, island: &island, length, held: &held, poses, evaluations: 0 };
             let found = step.solve(world, &held)?;
             self.report.evaluations += step.evaluations;
-            island.bodies.iter().zip(found).for_each(|(&body, impulse)| impulses[body] = impulse);
+            island.bodies.iter().for_each(|&body| impulses[body] = found[body]);
         }
-        let landing = self.landing(impulses);
-        place(world, &self.bodies, |index| {
-            (landing[index], self.bodies[index].velocity_after(&impulses[index], self.length))
-        })?;
+        let landing = self.system.landing(impulses, self.length);
+        let velocities = self.system.velocities_after(impulses, self.length);
+        place(world, &self.system.bodies, |index| (landing[index], velocities[index]))?;
         world.step()?;
         Ok(())
     }
 
     fn remember(&self, ends: &Ends, impulses: &[Vector6<f64>], keeps: &[Option<f64>]) -> Memory {
-        let landing = self.landing(impulses);
+        let landing = self.system.landing(impulses, self.length);
+        let velocities = self.system.velocities_after(impulses, self.length);
         let keep = |(index, body): (usize, &Body)| {
             let copy = &ends.copies[index];
-            let unspent = keeps[index].filter(|_| body.moves());
+            let unspent = keeps[index].filter(|_| self.system.moves(index));
             let is_kept = unspent.is_some();
             let mut queue = self.queues[index].clone();
             queue.push_back(impulses[index]);
@@ -299,13 +295,13 @@ impl<'f> Frame<'f> {
                 held_back: if is_kept { copy.impulse - impulses[index] } else { Vector6::zeros() },
                 unspent: unspent.unwrap_or(0.0),
                 predicted: landing[index],
-                predicted_velocity: body.velocity_after(&impulses[index], self.length),
+                predicted_velocity: velocities[index],
                 given: self.given[index].0,
                 given_velocity: self.given[index].1,
                 queue,
             }
         };
-        let bodies = self.bodies.iter().enumerate().map(keep).collect();
+        let bodies = self.system.bodies.iter().enumerate().map(keep).collect();
         Memory { length: self.length, rate_square: ends.rate_square, bodies }
     }
 }

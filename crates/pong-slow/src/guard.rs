@@ -4,12 +4,12 @@
 //! The copies follow a passive motion, and an implicit step never raises the energy of convex springs. So neither host nor
 //! copy ever has more energy than at the start (docs/theory.md, 9).
 
-use crate::body::Body;
 use crate::contact_set::{Spring, springs_at};
 use crate::copies::Copy;
 use crate::error::SlowError;
 use crate::implicit::Step;
 use crate::island::Island;
+use crate::system::System;
 use nalgebra::Vector6;
 use pong_engine::World;
 use pong_geometry::Pose;
@@ -21,7 +21,7 @@ const ROUNDING: f64 = 1e-13;
 
 /// Guard of one island in one frame.
 pub(crate) struct Guard<'g> {
-    pub bodies: &'g [Body],
+    pub system: &'g System<'g>,
     pub island: &'g Island,
     pub copies: &'g [Copy],
     /// Energy of the contacts of the copies at the end of the substeps, and of the host's bodies at the start, J.
@@ -35,7 +35,7 @@ pub(crate) struct Guard<'g> {
 
 /// Result of a guard.
 pub(crate) struct Guarded {
-    /// Impulses for the bodies of the island.
+    /// Impulses; those of bodies outside the island are as they were wanted.
     pub impulses: Vec<Vector6<f64>>,
     /// True if the wanted impulses had too much energy.
     pub limited: bool,
@@ -124,9 +124,8 @@ impl Guard<'_> {
         guess: &[Vector6<f64>],
         bound: f64,
     ) -> Result<(Vec<Vector6<f64>>, f64), SlowError> {
-        let friction: Vec<Vector6<f64>> =
-            self.island.bodies.iter().map(|&body| self.copies[body].friction).collect();
-        let rubs = friction.iter().any(|impulse| impulse.amax() > 0.0);
+        let friction: Vec<Vector6<f64>> = self.copies.iter().map(|copy| copy.friction).collect();
+        let rubs = self.island.bodies.iter().any(|&body| friction[body].amax() > 0.0);
         if rubs {
             let impulses = self.implicit(world, &friction, guess)?;
             let energy = self.landing(world, &impulses)?;
@@ -146,8 +145,8 @@ impl Guard<'_> {
         held: &[Vector6<f64>],
         guess: &[Vector6<f64>],
     ) -> Result<Vec<Vector6<f64>>, SlowError> {
-        let (bodies, island, length) = (self.bodies, self.island, self.length);
-        let mut step = Step { bodies, island, length, held, poses: self.poses.clone(), evaluations: 0 };
+        let (system, island, length) = (self.system, self.island, self.length);
+        let mut step = Step { system, island, length, held, poses: self.poses.clone(), evaluations: 0 };
         let impulses = step.solve(world, guess)?;
         self.evaluations += step.evaluations;
         Ok(impulses)
@@ -155,44 +154,48 @@ impl Guard<'_> {
 
     /// Energy where the bodies land with these impulses.
     fn landing(&mut self, world: &mut World, impulses: &[Vector6<f64>]) -> Result<Energy, SlowError> {
-        let (mut total, mut size, mut rubbed) = (0.0, 0.0, 0.0);
-        for (place, &body) in self.island.bodies.iter().enumerate() {
-            let one = &self.bodies[body];
-            let velocity = one.velocity_after(&impulses[place], self.length);
-            let by = velocity * self.length;
-            self.poses[body] = one.moved(&one.leading, &by);
-            let (kinetic, potential) = (one.kinetic(&velocity), one.potential(&by));
-            total += kinetic + potential;
-            size += kinetic + potential.abs();
-            rubbed -= self.copies[body].friction.dot(&velocity);
+        let velocities = self.system.velocities_after(impulses, self.length);
+        let by: Vec<_> = velocities.iter().map(|velocity| velocity * self.length).collect();
+        let mut rubbed = 0.0;
+        for &body in &self.island.bodies {
+            let one = &self.system.bodies[body];
+            self.poses[body] = one.moved(&one.leading, &by[body]);
+            rubbed -= self.copies[body].friction.dot(&velocities[body]);
         }
+        let (total, size) = self.motion_energy(&velocities, Some(&by));
         self.evaluations += 1;
-        let springs = springs_at(world, self.bodies, &self.poses)?;
+        let springs = springs_at(world, &self.system.bodies, &self.poses)?;
         let stored = stored(self.island, &springs);
-        let open = !springs.iter().any(|spring| touches(self.island, spring));
+        let open = !springs.iter().any(|spring| self.island.touches(&spring.normal));
         Ok(Energy { total: total + stored, size: size + stored, rubbed: rubbed.max(0.0), open })
     }
 
     fn copy_energy(&self) -> f64 {
-        let of = |&body: &usize| {
-            let (one, copy) = (&self.bodies[body], &self.copies[body]);
-            one.kinetic(&copy.velocity) + one.potential(&copy.displacement)
-        };
-        self.island.bodies.iter().map(of).sum::<f64>() + self.stored[0]
+        let velocities: Vec<_> = self.copies.iter().map(|copy| copy.velocity).collect();
+        let displacements: Vec<_> = self.copies.iter().map(|copy| copy.displacement).collect();
+        self.motion_energy(&velocities, Some(&displacements)).0 + self.stored[0]
     }
 
     fn start_energy(&self) -> f64 {
-        let of = |&body: &usize| self.bodies[body].kinetic(&self.bodies[body].velocity);
-        self.island.bodies.iter().map(of).sum::<f64>() + self.stored[1]
+        let velocities: Vec<_> = self.system.bodies.iter().map(|body| body.velocity).collect();
+        self.motion_energy(&velocities, None).0 + self.stored[1]
     }
-}
 
-/// Returns true if a spring acts on a body of the island.
-pub(crate) fn touches(island: &Island, spring: &Spring) -> bool {
-    island.place(spring.normal.a).is_some() || island.place(spring.normal.b).is_some()
+    /// Energy of motion of the island, and of the forces without contact after displacements, with the size of its terms,
+    /// J.
+    fn motion_energy(&self, velocities: &[Vector6<f64>], by: Option<&[Vector6<f64>]>) -> (f64, f64) {
+        let (mut total, mut size) = (0.0, 0.0);
+        for &(assembly, _) in &self.island.assemblies {
+            let kinetic = self.system.kinetic(assembly, velocities);
+            let potential = by.map_or(0.0, |by| self.system.potential(assembly, by));
+            total += kinetic + potential;
+            size += kinetic + potential.abs();
+        }
+        (total, size)
+    }
 }
 
 /// Energy of the springs that act on bodies of an island, J.
 pub(crate) fn stored(island: &Island, springs: &[Spring]) -> f64 {
-    springs.iter().filter(|spring| touches(island, spring)).map(|spring| spring.energy).sum()
+    springs.iter().filter(|spring| island.touches(&spring.normal)).map(|spring| spring.energy).sum()
 }

@@ -3,7 +3,7 @@
 use crate::block;
 use crate::error::SlowError;
 use crate::frame::{compute, plain_status};
-use crate::input::GroupInput;
+use crate::input::{Coupling, GroupInput, require_couplings};
 use crate::memory::Memory;
 use crate::report::Report;
 use crate::settings::Settings;
@@ -15,6 +15,7 @@ use pong_geometry::{Pose, Wrench};
 pub struct SlowHost {
     world: World,
     settings: Settings,
+    couplings: Vec<Coupling>,
     memory: Memory,
     /// Committed contact state.
     block: Vec<u8>,
@@ -52,7 +53,8 @@ impl SlowHost {
         world.save_state_packed(&mut block);
         let (memory, report) = (Memory::default(), Report::default());
         let (wrenches, orientations) = (Vec::new(), Vec::new());
-        Ok(Self { world, settings, memory, block, pending: None, report, wrenches, orientations })
+        let couplings = Vec::new();
+        Ok(Self { world, settings, couplings, memory, block, pending: None, report, wrenches, orientations })
     }
 
     /// The world of the copies.
@@ -70,16 +72,31 @@ impl SlowHost {
         &self.world
     }
 
+    /// Sets the couplings of jointed groups, for the frames that are evaluated from now on: all of them, in place of those
+    /// of the last call. Groups that are not coupled do not move by the impulses of each other.
+    ///
+    /// # Errors
+    /// [`SlowError::BadInput`] for a coupling of a group with itself, given twice, or not finite;
+    /// [`SlowError::Engine`] for ids of another world. The couplings stay as they were then.
+    pub fn set_couplings(&mut self, couplings: &[Coupling]) -> Result<(), SlowError> {
+        require_couplings(&self.world, couplings)?;
+        self.couplings.clear();
+        self.couplings.extend_from_slice(couplings);
+        Ok(())
+    }
+
     /// Computes the wrenches to hold over a frame of this length (s). Has no effect on later calls of evaluate or
     /// commit. Inputs are needed of every movable group.
     ///
     /// # Errors
-    /// [`SlowError::BadInput`] for a length that is not positive, and for masses that are missing, given twice or not
-    /// positive; [`SlowError::Engine`] for ids of another world and for states that the engine refuses.
+    /// [`SlowError::BadInput`] for a length that is not positive, for masses that are missing, given twice or not
+    /// positive, and for couplings of groups that are not jointed or that give a mobility with a negative eigenvalue; [`SlowError::Engine`] for ids of another world and for states that the engine refuses.
     pub fn evaluate(&mut self, length: f64, inputs: &[GroupInput]) -> Result<&Report, SlowError> {
         self.pending = None;
         self.world.restore_state(&self.block)?;
-        let computed = compute(&mut self.world, &self.settings, (&self.memory, &self.block), length, inputs)?;
+        let memory = (&self.memory, &self.block[..]);
+        let given = (inputs, &self.couplings[..]);
+        let computed = compute(&mut self.world, &self.settings, memory, length, given)?;
         self.orientations.clear();
         self.orientations.resize(inputs.len(), pong_geometry::Quat::identity());
         for input in inputs {

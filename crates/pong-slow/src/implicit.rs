@@ -1,10 +1,10 @@
 //! One implicit Euler step from the host's state with the normal forces of its end: the least ½·|z|² + Φ over landing
 //! poses, Φ the energy of the normal springs. Such a step never raises the energy where Φ is convex.
 
-use crate::body::Body;
 use crate::contact_set::{Spring, springs_at};
 use crate::error::SlowError;
 use crate::island::Island;
+use crate::system::System;
 use nalgebra::{DMatrix, DVector, Vector6};
 use pong_engine::World;
 use pong_geometry::Pose;
@@ -17,11 +17,11 @@ const RESIDUAL: f64 = 1e-13;
 
 /// Task of a step for one island.
 pub(crate) struct Step<'s> {
-    pub bodies: &'s [Body],
+    pub system: &'s System<'s>,
     pub island: &'s Island,
     /// Length of the frame, s.
     pub length: f64,
-    /// Impulses that act besides the normal forces, for the bodies of the island.
+    /// Impulses that act besides the normal forces.
     pub held: &'s [Vector6<f64>],
     /// Landing poses of all bodies; those of the island are overwritten.
     pub poses: Vec<Pose>,
@@ -35,11 +35,9 @@ impl Step<'_> {
         world: &mut World,
         guess: &[Vector6<f64>],
     ) -> Result<Vec<Vector6<f64>>, SlowError> {
-        let mut z = DVector::zeros(self.island.size());
-        for (place, &body) in self.island.bodies.iter().enumerate() {
-            let by = guess[place] - self.held[place];
-            z.fixed_rows_mut::<6>(6 * place).copy_from(&self.bodies[body].root.coordinates_of_impulse(&by));
-        }
+        let pushes: Vec<_> = guess.iter().zip(self.held).map(|(guess, held)| guess - held).collect();
+        let of_island = self.island.bodies.iter().map(|&body| (body, &pushes[body]));
+        let mut z = self.island.coordinates(self.system, of_island);
         let mut springs = self.springs(world, &z)?;
         let mut value = 0.5 * z.norm_squared() + energy(&springs);
         for _ in 0..NEWTON_MAX {
@@ -70,18 +68,15 @@ impl Step<'_> {
     }
 
     fn springs(&mut self, world: &mut World, z: &DVector<f64>) -> Result<Vec<Spring>, SlowError> {
-        for (place, &body) in self.island.bodies.iter().enumerate() {
-            let one = &self.bodies[body];
-            let free = one.velocity_after(&self.held[place], self.length);
-            let velocity = free + one.root.columns * Island::of(z, place);
-            self.poses[body] = one.moved(&one.leading, &(velocity * self.length));
+        let mut velocities = self.system.velocities_after(self.held, self.length);
+        self.island.add_velocities(self.system, z, &mut velocities);
+        for &body in &self.island.bodies {
+            let one = &self.system.bodies[body];
+            self.poses[body] = one.moved(&one.leading, &(velocities[body] * self.length));
         }
         self.evaluations += 1;
-        let springs = springs_at(world, self.bodies, &self.poses)?;
-        let touches = |spring: &Spring| {
-            self.island.place(spring.normal.a).is_some() || self.island.place(spring.normal.b).is_some()
-        };
-        Ok(springs.into_iter().filter(touches).collect())
+        let springs = springs_at(world, &self.system.bodies, &self.poses)?;
+        Ok(springs.into_iter().filter(|spring| self.island.touches(&spring.normal)).collect())
     }
 
     /// Gradient and stiffness in z, and the size of the terms of the gradient.
@@ -90,7 +85,7 @@ impl Step<'_> {
         let mut size = z.norm();
         let mut stiffness = DMatrix::zeros(z.len(), z.len());
         for spring in springs {
-            let row = self.island.coordinates(self.bodies, &spring.normal);
+            let row = self.island.row(self.system, &spring.normal);
             gradient.axpy(-self.length * spring.force, &row, 1.0);
             size += self.length * spring.force * row.norm();
             stiffness.ger(self.length * self.length * spring.stiffness, &row, &row, 1.0);
@@ -103,8 +98,8 @@ impl Step<'_> {
         for spring in springs {
             for (body, on) in [(spring.normal.a, &spring.normal.on_a), (spring.normal.b, &spring.normal.on_b)]
             {
-                if let Some(place) = self.island.place(body) {
-                    impulses[place] += on * (self.length * spring.force);
+                if self.island.has(body) {
+                    impulses[body] += on * (self.length * spring.force);
                 }
             }
         }

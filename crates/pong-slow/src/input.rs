@@ -1,8 +1,7 @@
 //! Input of a frame: states, masses and accelerations of the movable groups, checked.
 
 use crate::error::SlowError;
-use crate::mobility::Root;
-use nalgebra::{Matrix6, SymmetricEigen};
+use nalgebra::Matrix6;
 use pong_engine::{InterfaceId, State, World};
 use pong_geometry::{Mat3, Vec3};
 
@@ -45,6 +44,55 @@ pub struct GroupInput {
     pub linear_acceleration: [f64; 3],
     /// Angular acceleration without contact, rad/s², along common axes.
     pub angular_acceleration: [f64; 3],
+}
+
+/// Velocity that an impulse on one jointed group gives another one, because joints connect them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Coupling {
+    /// The group that moves.
+    pub of: InterfaceId,
+    /// The group that gets the impulse.
+    pub by: InterfaceId,
+    /// Cross mobility: velocity (m/s and rad/s) of the origin of `of`, along the axes of `of`, per impulse (N·s and N·m·s)
+    /// on `by` about its origin, along the axes of `by`; linear rows and columns first. That of `by` per impulse on `of`
+    /// is its transpose.
+    pub mobility: [[f64; 6]; 6],
+}
+
+impl Coupling {
+    /// Indices of both groups.
+    pub(crate) fn places(&self) -> (usize, usize) {
+        (self.of.index(), self.by.index())
+    }
+
+    /// The cross mobility as a matrix.
+    pub(crate) fn block(&self) -> Matrix6<f64> {
+        Matrix6::from_fn(|i, j| self.mobility[i][j])
+    }
+}
+
+/// Refuses couplings of other worlds, of a group with itself, given twice, or not finite.
+pub(crate) fn require_couplings(world: &World, couplings: &[Coupling]) -> Result<(), SlowError> {
+    let mut seen = Vec::with_capacity(couplings.len());
+    for coupling in couplings {
+        world.state_as_set(coupling.of)?;
+        world.state_as_set(coupling.by)?;
+        let (of, by) = coupling.places();
+        let fault = if of == by {
+            "it is one group; give its own mobility as `Jointed` dynamics"
+        } else if seen.contains(&(of.min(by), of.max(by))) {
+            "it is given twice; one direction is enough"
+        } else if coupling.mobility.as_flattened().iter().any(|x| !x.is_finite()) {
+            "it is not finite; give 36 finite numbers"
+        } else {
+            seen.push((of.min(by), of.max(by)));
+            continue;
+        };
+        let name = |group| world.inspect().group_name(group);
+        let what = format!("coupling of `{}` and `{}`", name(of), name(by));
+        return Err(SlowError::BadInput { what, cause: fault.to_owned() });
+    }
+    Ok(())
 }
 
 /// Refuses a frame length that is not positive and finite.
@@ -98,13 +146,18 @@ fn require_finite(input: &GroupInput, name: impl Fn() -> String) -> Result<(), S
     Ok(())
 }
 
-/// Square root of the mobility of a group in its chart (`chart.rs`), for a group frame turned by `rotation`.
-pub(crate) fn root_of(dynamics: &Dynamics, rotation: &Mat3, name: &str) -> Result<Root, SlowError> {
+/// Mobility of a group in its chart (`chart.rs`), for a group frame turned by `rotation`; `None` of a body that contact
+/// does not move.
+pub(crate) fn mobility_of(
+    dynamics: &Dynamics,
+    rotation: &Mat3,
+    name: &str,
+) -> Result<Option<Matrix6<f64>>, SlowError> {
     let refused = |quantity: &str, cause: String| {
         Err(SlowError::BadInput { what: format!("{quantity} of `{name}`"), cause })
     };
     match dynamics {
-        Dynamics::Prescribed => Ok(Root::zero()),
+        Dynamics::Prescribed => Ok(None),
         Dynamics::Free { mass, inertia, mass_center } => {
             if !(*mass > 0.0 && mass.is_finite()) {
                 return refused("mass", format!("it is {mass} kg; give a positive mass, or `Prescribed`"));
@@ -124,14 +177,14 @@ pub(crate) fn root_of(dynamics: &Dynamics, rotation: &Mat3, name: &str) -> Resul
             mobility.fixed_view_mut::<3, 3>(0, 0).fill_diagonal(1.0 / mass);
             let turned = rotation * inverse * rotation.transpose();
             mobility.fixed_view_mut::<3, 3>(3, 3).copy_from(&turned);
-            Ok(Root::of(&mobility))
+            Ok(Some(mobility))
         }
         Dynamics::Jointed { mobility } => {
             let mobility = Matrix6::from_fn(|i, j| mobility[i][j]);
             if let Some(cause) = fault_of_mobility(&mobility) {
                 return refused("mobility", cause);
             }
-            Ok(Root::of(&mobility))
+            Ok(Some(mobility))
         }
     }
 }
@@ -146,7 +199,7 @@ fn inverse_inertia(inertia: &Mat3) -> Option<Mat3> {
 }
 
 /// Cause and cure of a mobility with a negative eigenvalue.
-fn gains() -> String {
+pub(crate) fn gains() -> String {
     "an impulse would move the body against itself; give a mobility without negative eigenvalues".to_owned()
 }
 
@@ -168,8 +221,7 @@ fn fault_of_mobility(mobility: &Matrix6<f64>) -> Option<String> {
     }
     let negative = mobility.diagonal().iter().any(|x| *x < 0.0);
     let outside = (0..6).any(|i| (0..6).any(|j| scale[i] * scale[j] == 0.0 && mobility[(i, j)] != 0.0));
-    let least = SymmetricEigen::new(scaled).eigenvalues.min();
-    if negative || outside || least < -TOLERANCE {
+    if negative || outside {
         return Some(gains());
     }
     if mobility.amax() == 0.0 {

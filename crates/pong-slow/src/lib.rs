@@ -9,8 +9,9 @@
 //! | `settings.rs` | settings that hold for a whole run |
 //! | `input.rs` | what the host gives for each frame, checked |
 //! | `chart.rs` | poses and velocities in six coordinates, along common axes or along the group's |
-//! | `mobility.rs` | square root of a 6×6 mobility |
 //! | `body.rs` | one movable group in a frame |
+//! | `assembly.rs` | bodies that joints connect, and the square root of their mobility |
+//! | `system.rs` | all bodies of a frame |
 //! | `contact_set.rs` | contacts of a set of poses, with energy, force and stiffness |
 //! | `copies.rs` | the substeps |
 //! | `island.rs` | groups that touch each other |
@@ -24,6 +25,7 @@
 
 #![forbid(unsafe_code)]
 
+mod assembly;
 mod block;
 mod body;
 mod chart;
@@ -37,15 +39,15 @@ mod implicit;
 mod input;
 mod island;
 mod memory;
-mod mobility;
 mod prediction;
 mod projection;
 mod queue;
 mod report;
 mod settings;
+mod system;
 
 pub use error::SlowError;
 pub use host::SlowHost;
-pub use input::{Dynamics, GroupInput};
+pub use input::{Coupling, Dynamics, GroupInput};
 pub use report::{FrameStatus, GroupReport, Report};
 pub use settings::Settings;

@@ -1,11 +1,11 @@
 //! Differences between the motion of the host and the prediction of the last frame, with their energy.
 
-use crate::body::Body;
 use crate::chart::{angular, displacement, linear};
 use crate::contact_set::{Spring, springs_at};
 use crate::error::SlowError;
 use crate::memory::Memory;
 use crate::report::GroupReport;
+use crate::system::System;
 use pong_engine::World;
 use pong_geometry::Pose;
 
@@ -16,10 +16,13 @@ const ROUNDING: f64 = 1e-12;
 pub(crate) fn inserted(
     world: &mut World,
     memory: &Memory,
-    bodies: &[Body],
+    system: &System,
 ) -> Result<Vec<GroupReport>, SlowError> {
+    let bodies = &system.bodies;
     let mut reports = Vec::with_capacity(bodies.len());
-    let mut predicted = Vec::with_capacity(bodies.len());
+    let (mut predicted, mut displacements) =
+        (Vec::with_capacity(bodies.len()), Vec::with_capacity(bodies.len()));
+    let [mut found_velocities, mut predicted_velocities] = [Vec::new(), Vec::new()];
     let mut differs = false;
     for (index, body) in bodies.iter().enumerate() {
         let kept = memory.of(index, body.axes);
@@ -29,33 +32,41 @@ pub(crate) fn inserted(
         let gained = body.velocity - velocity;
         let size = body.leading.position.norm() + memory.length * linear(&body.velocity).norm();
         differs |= linear(&by).norm() > ROUNDING * size || angular(&by).norm() > ROUNDING;
-        let energy = body.kinetic(&body.velocity) - body.kinetic(&velocity) + body.potential(&by);
         predicted.push(pose);
+        displacements.push(by);
+        found_velocities.push(body.velocity);
+        predicted_velocities.push(velocity);
         reports.push(GroupReport {
             interface: body.interface,
             position: linear(&by).into(),
             rotation: angular(&by).into(),
             linear_velocity: linear(&gained).into(),
             angular_velocity: angular(&gained).into(),
-            inserted: energy,
+            inserted: 0.0,
         });
+    }
+    for (index, assembly) in system.assemblies.iter().enumerate() {
+        let energy = system.kinetic(index, &found_velocities) - system.kinetic(index, &predicted_velocities)
+            + system.potential(index, &displacements);
+        let share = energy / assembly.bodies.len() as f64;
+        assembly.bodies.iter().for_each(|&body| reports[body].inserted = share);
     }
     if differs {
         let found: Vec<Pose> = bodies.iter().map(|body| body.leading).collect();
         for (poses, sign) in [(&found, 1.0), (&predicted, -1.0)] {
             for spring in springs_at(world, bodies, poses)? {
-                share(&mut reports, bodies, &spring, sign);
+                share(&mut reports, system, &spring, sign);
             }
         }
     }
     Ok(reports)
 }
 
-fn share(reports: &mut [GroupReport], bodies: &[Body], spring: &Spring, sign: f64) {
+fn share(reports: &mut [GroupReport], system: &System, spring: &Spring, sign: f64) {
     let (a, b) = (spring.normal.a, spring.normal.b);
-    let share = if bodies[a].moves() && bodies[b].moves() { 0.5 } else { 1.0 };
+    let share = if system.moves(a) && system.moves(b) { 0.5 } else { 1.0 };
     for body in [a, b] {
-        if bodies[body].moves() {
+        if system.moves(body) {
             reports[body].inserted += sign * share * spring.energy;
         }
     }

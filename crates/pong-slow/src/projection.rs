@@ -4,8 +4,9 @@
 
 use crate::body::Body;
 use crate::contact_set::{Row, axes_of};
-use crate::copies::{Ends, Touch};
+use crate::copies::Touch;
 use crate::island::Island;
+use crate::system::System;
 use nalgebra::{DMatrix, DVector, Vector6};
 use pong_geometry::{Pose, Vec3};
 
@@ -38,37 +39,43 @@ fn pulls<'t>(bodies: &[Body], poses: &[Pose], touches: impl Iterator<Item = &'t 
     pulls
 }
 
-/// Impulses over the frame for the bodies of an island, in their order, that lead to the nearest velocity.
-pub(crate) fn project(bodies: &[Body], island: &Island, ends: &Ends, length: f64) -> Vec<Vector6<f64>> {
-    let within =
-        |touch: &&Touch| island.place(touch.bodies.0).is_some() || island.place(touch.bodies.1).is_some();
-    let reached: Vec<Vector6<f64>> = island.bodies.iter().map(|&body| ends.copies[body].impulse).collect();
-    if ends.touches.iter().filter(within).count() == 0 {
-        return reached;
+/// Impulses over the frame that lead the bodies of an island to the nearest velocity. Those of other bodies are as
+/// `reached`, the impulses of the copies.
+pub(crate) fn project(
+    system: &System,
+    island: &Island,
+    touches: &[Touch],
+    reached: &[Vector6<f64>],
+    length: f64,
+) -> Vec<Vector6<f64>> {
+    let within = |touch: &&Touch| island.has(touch.bodies.0) || island.has(touch.bodies.1);
+    let touches: Vec<&Touch> = touches.iter().filter(within).collect();
+    let mut impulses = reached.to_vec();
+    if touches.is_empty() {
+        return impulses;
     }
-    let mut impulses = reached.clone();
     let mut z = DVector::zeros(island.size());
     for _ in 0..ITERATIONS {
-        let poses = landing(bodies, island, &impulses, length);
-        let pulls = pulls(bodies, &poses, ends.touches.iter().filter(within));
+        let poses = landing(system, island, &impulses, length);
+        let pulls = pulls(&system.bodies, &poses, touches.iter().copied());
         let mut stiffness = DMatrix::zeros(island.size(), island.size());
         let mut right = DVector::zeros(island.size());
         let mut rows = Vec::with_capacity(pulls.len());
         for pull in &pulls {
-            let row = island.coordinates(bodies, &pull.row);
+            let row = island.row(system, &pull.row);
             stiffness.ger(length * length * pull.stiffness, &row, &row, 1.0);
             let ahead = length * row.dot(&z) - pull.distance;
             right.axpy(length * pull.stiffness * ahead, &row, 1.0);
             rows.push(row);
         }
         let next = Island::solve(stiffness, &right);
-        impulses.clone_from(&reached);
+        impulses.copy_from_slice(reached);
         for (pull, row) in pulls.iter().zip(&rows) {
             let distance = pull.distance + length * row.dot(&(&next - &z));
             let push = -length * pull.stiffness * distance;
             for (body, on) in [(pull.row.a, &pull.row.on_a), (pull.row.b, &pull.row.on_b)] {
-                if let Some(place) = island.place(body) {
-                    impulses[place] += on * push;
+                if island.has(body) {
+                    impulses[body] += on * push;
                 }
             }
         }
@@ -78,10 +85,11 @@ pub(crate) fn project(bodies: &[Body], island: &Island, ends: &Ends, length: f64
 }
 
 /// Leading poses of all bodies after a frame in which those of an island get these impulses, and the others none.
-fn landing(bodies: &[Body], island: &Island, impulses: &[Vector6<f64>], length: f64) -> Vec<Pose> {
-    let pose = |(index, body): (usize, &Body)| {
-        let impulse = island.place(index).map_or_else(Vector6::zeros, |place| impulses[place]);
-        body.moved(&body.leading, &(body.velocity_after(&impulse, length) * length))
+fn landing(system: &System, island: &Island, impulses: &[Vector6<f64>], length: f64) -> Vec<Pose> {
+    let of_island = |(body, impulse): (usize, &Vector6<f64>)| match island.has(body) {
+        true => *impulse,
+        false => Vector6::zeros(),
     };
-    bodies.iter().enumerate().map(pose).collect()
+    let impulses: Vec<_> = impulses.iter().enumerate().map(of_island).collect();
+    system.landing(&impulses, length)
 }

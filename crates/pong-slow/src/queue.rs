@@ -3,6 +3,7 @@
 use crate::body::Body;
 use crate::error::SlowError;
 use crate::memory::Memory;
+use crate::system::System;
 use nalgebra::Vector6;
 use std::collections::VecDeque;
 
@@ -19,12 +20,17 @@ pub(crate) fn under_way(
     kept.map_or_else(|| VecDeque::from(vec![Vector6::zeros(); length]), |kept| kept.queue.clone())
 }
 
-/// Moves a body to the time at which the impulse that is computed now will act.
+/// Moves the bodies to the time at which the impulses that are computed now will act.
 pub(crate) fn carry_forward(
-    body: &mut Body,
-    queue: &VecDeque<Vector6<f64>>,
+    system: &mut System,
+    queues: &[VecDeque<Vector6<f64>>],
     theta: f64,
     length: f64,
 ) -> Result<(), SlowError> {
-    queue.iter().try_for_each(|impulse| body.advance(impulse, theta, length))
+    let frames = queues.first().map_or(0, VecDeque::len);
+    for frame in 0..frames {
+        let impulses: Vec<_> = queues.iter().map(|queue| queue[frame]).collect();
+        system.advance(&impulses, theta, length)?;
+    }
+    Ok(())
 }

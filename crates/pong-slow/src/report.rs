@@ -36,7 +36,8 @@ pub struct GroupReport {
     /// Found minus predicted angular velocity, rad/s, along the same axes.
     pub angular_velocity: [f64; 3],
     /// Energy that this difference inserted, J: kinetic, of the forces without contact, and half of that of the normal
-    /// springs of the group's contacts (all of it against a prescribed group). 0 in the first frame.
+    /// springs of the group's contacts (all of it against a prescribed group). Coupled groups share the first two equally. 0
+    /// in the first frame.
     pub inserted: f64,
 }
 

@@ -43,7 +43,7 @@ mod pool;
 #[cfg(not(loom))]
 mod settings;
 #[cfg(not(loom))]
-mod signals;
+pub mod system;
 
 use std::ops::Range;
 
@@ -53,8 +53,6 @@ pub use place::{Grant, WorkerStart};
 pub use pool::{LONGEST_FAREWELL, LONGEST_START, Pool, StartError};
 #[cfg(not(loom))]
 pub use settings::Settings;
-#[cfg(not(loom))]
-pub use signals::without_signals;
 
 /// Maximum number of blocks in a phase.
 pub const MAX_BLOCKS: u32 = (1 << 16) - 1;

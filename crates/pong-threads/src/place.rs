@@ -2,9 +2,7 @@
 
 use std::fmt;
 
-use core_affinity::CoreId;
-
-use crate::{MAX_WORKERS, Settings};
+use crate::{MAX_WORKERS, Settings, system};
 
 /// Answer of the system to a request in the settings.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -81,11 +79,10 @@ fn room_for_workers(settings: &Settings) -> (Vec<usize>, usize) {
 
 /// Returns the cores of the affinity mask: at least one, even if the system reports none.
 fn cores_of_mask() -> Vec<usize> {
-    let listed = core_affinity::get_core_ids().unwrap_or_default();
-    if !listed.is_empty() {
-        return listed.iter().map(|core| core.id).collect();
+    match system::cores() {
+        none if none.is_empty() => (0..std::thread::available_parallelism().map_or(1, usize::from)).collect(),
+        cores => cores,
     }
-    (0..std::thread::available_parallelism().map_or(1, usize::from)).collect()
 }
 
 /// Binds the calling thread to `core` and sets its priority, each if requested. Returns what the system
@@ -93,35 +90,15 @@ fn cores_of_mask() -> Vec<usize> {
 pub fn settle(thread: usize, core: Option<usize>, fifo_priority: Option<u8>) -> WorkerStart {
     WorkerStart {
         thread,
-        core: core.map_or(Grant::NotAsked, bind),
-        fifo_priority: fifo_priority.map_or(Grant::NotAsked, raise),
+        core: core.map_or(Grant::NotAsked, |core| granted(core, system::bind(core))),
+        fifo_priority: fifo_priority
+            .map_or(Grant::NotAsked, |priority| granted(priority, system::raise_priority(priority))),
     }
 }
 
-fn bind(core: usize) -> Grant<usize> {
-    if core_affinity::set_for_current(CoreId { id: core }) {
-        return Grant::Granted(core);
+fn granted<T>(asked: T, answer: Result<(), String>) -> Grant<T> {
+    match answer {
+        Ok(()) => Grant::Granted(asked),
+        Err(why) => Grant::Refused { asked, why },
     }
-    Grant::Refused { asked: core, why: "the system does not let this thread run there".to_owned() }
-}
-
-#[cfg(unix)]
-fn raise(priority: u8) -> Grant<u8> {
-    // SAFETY: an all-zero sched_param is valid on every system that has one, and the call reads it only.
-    let refusal = unsafe {
-        let mut parameters: libc::sched_param = std::mem::zeroed();
-        parameters.sched_priority = libc::c_int::from(priority);
-        libc::pthread_setschedparam(libc::pthread_self(), libc::SCHED_FIFO, &parameters)
-    };
-    match refusal {
-        0 => Grant::Granted(priority),
-        number => {
-            Grant::Refused { asked: priority, why: std::io::Error::from_raw_os_error(number).to_string() }
-        }
-    }
-}
-
-#[cfg(not(unix))]
-fn raise(priority: u8) -> Grant<u8> {
-    Grant::Refused { asked: priority, why: "this system has no SCHED_FIFO".to_owned() }
 }

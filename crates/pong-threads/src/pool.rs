@@ -10,15 +10,15 @@ use std::time::{Duration, Instant};
 use crate::board::Board;
 use crate::caller::Caller;
 use crate::place::{cores_of_workers, settle};
-use crate::signals::without_signals;
 use crate::sync::Watch;
+use crate::system::without_signals;
 use crate::worker::{Shared, Worker};
 use crate::{Job, Outcome, Settings, ThreadWork, WorkerStart};
 
 /// Workers that share phases with one calling thread.
 ///
 /// Dropping the pool ends the workers, as [`end`](Self::end) does. Workers handle no signals
-/// ([`without_signals`]).
+/// ([`without_signals`](crate::system::without_signals)).
 pub struct Pool {
     caller: Caller,
     threads: Vec<JoinHandle<()>>,

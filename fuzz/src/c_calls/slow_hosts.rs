@@ -6,9 +6,9 @@ use super::set_up::COSTS_MAX;
 use pong::slow_host::{
     pong_commit_slow, pong_create_slow_host, pong_destroy_slow_host, pong_evaluate_slow,
     pong_get_slow_differences, pong_get_slow_report, pong_get_slow_wrenches, pong_restore_slow_state,
-    pong_save_slow_state, pong_slow_host, pong_slow_state_size, pong_step_slow,
+    pong_save_slow_state, pong_set_slow_couplings, pong_slow_host, pong_slow_state_size, pong_step_slow,
 };
-use pong::slow_input::{PONG_DYNAMICS_FREE, PONG_DYNAMICS_JOINTED, pong_slow_input};
+use pong::slow_input::{PONG_DYNAMICS_FREE, PONG_DYNAMICS_JOINTED, pong_slow_coupling, pong_slow_input};
 use pong::slow_report::{pong_slow_difference, pong_slow_report};
 use pong::slow_settings::pong_default_slow_settings;
 use pong::step_plan::pong_mass;
@@ -85,6 +85,7 @@ impl Session<'_> {
             }
             inputs.push(input);
         }
+        self.slow_couplings(host, &ids);
         let count = inputs.len() - usize::from(!inputs.is_empty() && self.input.chance(8));
         let length = if self.input.chance(16) { self.input.number() } else { 0.05 };
         // Refused for numbers beyond what a frame can hold, and by laws.
@@ -100,6 +101,21 @@ impl Session<'_> {
         }
         // Without a frame, or twice.
         self.call("commit slow", Sure::Wrong, || unsafe { pong_commit_slow(host) });
+    }
+
+    fn slow_couplings(&mut self, host: *mut pong_slow_host, ids: &[pong::ids::pong_interface_id]) {
+        if ids.is_empty() || !self.input.chance(4) {
+            return;
+        }
+        let mut coupling = pong_slow_coupling {
+            of: ids[self.input.below(ids.len())],
+            by: ids[self.input.below(ids.len())],
+            mobility: [0.0; 36],
+        };
+        coupling.mobility[14] =
+            if self.input.chance(8) { self.input.number() } else { self.input.small(0.1) };
+        // Refused of one group, and where not finite; here or at the frame.
+        self.call("slow couplings", Sure::Unknown, || unsafe { pong_set_slow_couplings(host, &coupling, 1) });
     }
 
     fn slow_results(&mut self, host: *mut pong_slow_host, ids: &[pong::ids::pong_interface_id]) {

@@ -10,7 +10,12 @@ typedef struct slow_copies {
     mjData *scratch;         /* steps without contact */
     pong_slow_input *inputs; /* one for each movable group */
     mjtNum *inertia;         /* nv x nv: effective inertia of a step, factored */
-    mjtNum *columns;         /* 12 x nv */
+    mjtNum *springs;         /* 3 x nv x nv: inertia of the constraints that act, damping times the step, a product */
+    mjtNum *roots;           /* 6 x nv for each group: its Jacobian times the inverse root of the inertia */
+    pong_slow_coupling *couplings; /* of groups that joints connect */
+    pong_wrench *wrenches;   /* one for each movable group */
+    mjtNum *pushes;          /* 2 x nv: generalised force of these wrenches, and what it accelerates */
+    mjtNum *rounds;          /* 4 x nv: acceleration without contact and its error, of this round and of the one before */
 } slow_copies;
 
 /* Refuses integrators for which the copies do not know how poses move. */

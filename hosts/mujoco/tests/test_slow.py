@@ -63,6 +63,44 @@ class Rebounds(unittest.TestCase):
         self.assertEqual(d.sensordata[0], 1)
 
 
+class Mechanisms(unittest.TestCase):
+    """Balls of 1 m/s in steps of 20 and 50 ms, whose touch lasts 22 ms and less."""
+
+    def touching(self, bodies, objects, pairs, timestep, **texts):
+        keys = {"bodies": "ground = world"} if "ground" in objects else {}
+        inside = instance(objects, pairs=pairs, check_step="false", substeps_max="5000", **keys, **texts)
+        return mujoco.MjModel.from_xml_string(mjcf(bodies, inside, "implicitfast", timestep, gravity="0 0 0"))
+
+    def test_two_groups_of_one_body(self):
+        """A bar with a ball at each end falls flat on both, and rebounds as fast."""
+        ends = "".join(f"<body name='{name}' pos='{x} 0 0'/>" for name, x in (("left", -1), ("right", 1)))
+        for joint in ("<freejoint/>", "<joint type='slide' axis='0 0 1' damping='1e-9'/>"):
+            for timestep in (0.02, 0.05):
+                bar = f"<body name='bar' pos='0 0 0.13'>{joint}<inertial mass='2' pos='0 0 0' diaginertia='.1 1 1'/>{ends}</body>"
+                m = self.touching(bar, "left = text1; right = text1; ground = text2", "left, ground; right, ground", timestep,
+                                  text1=ball_model(stiffness=STIFFNESS), text2=GROUND)
+                d = mujoco.MjData(m)
+                up = 2 if "free" in joint else 0
+                d.qvel[up] = -1.0
+                mujoco.mj_step(m, d, 12)
+                self.assertLess(abs(d.qvel[up] - 1.0), 2e-3)
+
+    def test_a_body_that_is_lifted_off_its_limit(self):
+        """A ball meets another of its mass that rests on the limit of its slide: it stops, and the other one goes on."""
+        for timestep in (0.02, 0.05):
+            ball = FREE.format(place="0 0 0", mass=1.0, i=0.004)
+            rest = "<joint type='slide' axis='0 0 1' limited='true' range='0 9' stiffness='1e-3' springref='-1000'/>"
+            other = f"<body name='other' pos='0 0 0.23'>{rest}<inertial mass='1' pos='0 0 0' diaginertia='.1 .1 .1'/></body>"
+            m = self.touching(ball + other, "ball = text1; other = text1", "ball, other", timestep,
+                              text1=ball_model(stiffness=STIFFNESS))
+            d = mujoco.MjData(m)
+            d.qvel[2] = 1.0
+            mujoco.mj_step(m, d, 6)
+            # The spring takes 1 N·s a second.
+            self.assertLess(abs(d.qvel[2]), 0.15)
+            self.assertLess(abs(d.qvel[6] - 1.0), 0.15 + 6 * timestep)
+
+
 class States(unittest.TestCase):
     def test_restored_and_copied_states_go_on_with_the_same_bits(self):
         m = falling(damping=20.0, mu=0.5, place="0 0 0.12")

@@ -5,7 +5,7 @@ use crate::errors::{BadValueError, ContactStateError, PhaseError, lock, of_engin
 use crate::ids::Interface;
 use crate::sealed::World;
 use pong_engine::{InterfaceId, State};
-use pong_slow::{Dynamics, GroupInput, Report, Settings, SlowError};
+use pong_slow::{Coupling, Dynamics, GroupInput, Report, Settings, SlowError};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use std::sync::{Mutex, MutexGuard};
@@ -122,6 +122,31 @@ impl SlowHost {
     fn jointed(&self, interface: PyRef<'_, Interface>, mobility: &Bound<'_, PyAny>) -> PyResult<()> {
         let mobility = square("mobility", mobility)?;
         self.set(&interface, Dynamics::Jointed { mobility })
+    }
+
+    /// Tells how impulses on some jointed groups move others, because joints connect them. The couplings replace those of the
+    /// last call; without a coupling, two groups do not move by the impulses of each other.
+    ///
+    /// Parameters
+    /// ----------
+    /// couplings : sequence of tuple[Interface, Interface, array_like]
+    ///     The group that moves, the group that gets the impulse, and (6, 6) the velocity of the origin of the first, along its axes, per
+    ///     impulse on the second about its origin, along the axes of the second: Jᵢ·M⁻¹·Jⱼᵀ. One direction is enough.
+    ///
+    /// Raises
+    /// ------
+    /// BadValueError
+    ///     A group is coupled with itself, two are coupled twice, or a number is not finite. The couplings stay as they were.
+    fn couplings(
+        &self,
+        couplings: Vec<(PyRef<'_, Interface>, PyRef<'_, Interface>, Bound<'_, PyAny>)>,
+    ) -> PyResult<()> {
+        let coupling =
+            |(of, by, mobility): &(PyRef<'_, Interface>, PyRef<'_, Interface>, Bound<'_, PyAny>)| {
+                Ok(Coupling { of: of.id, by: by.id, mobility: square("mobility", mobility)? })
+            };
+        let couplings = couplings.iter().map(coupling).collect::<PyResult<Vec<_>>>()?;
+        self.lock()?.host.set_couplings(&couplings).map_err(of_slow)
     }
 
     /// Tells that contact does not move a movable group: the ground, or a body on a prescribed path.

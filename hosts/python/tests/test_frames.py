@@ -618,3 +618,38 @@ def test_slow_host_of_a_jointed_body():
         slow.jointed(made.interfaces[0], np.eye(3))
     with pytest.raises(pong.NotFoundError):
         slow.prescribed(world().interfaces[0])
+
+
+def test_slow_host_of_coupled_bodies():
+    """Two balls that are one rigid body and can only rise: together they carry its weight, without the coupling more."""
+    made = pong.WorldBuilder()
+    for name, text in (("left", BALL), ("right", BALL), ("ground", GROUND)):
+        made.create_object(made.add_model(pong.Model.parse(text, name=name)), name)
+    made.pair("left", "ground"), made.pair("right", "ground")
+    made = made.seal()
+    mass, mobility = 2.0, np.zeros((6, 6))
+    mobility[2, 2] = 1.0 / mass
+    left, right, floor = made.interfaces
+    accelerations = np.zeros((3, 6))
+    accelerations[:2, 2] = -9.81
+    deep = touching(0.5 * mass * 9.81 / STIFFNESS)
+    rows = np.vstack([deep[0], deep[0], deep[1]])
+    for coupled in (True, False):
+        slow = pong.SlowHost(made)
+        slow.jointed(left, mobility), slow.jointed(right, mobility), slow.prescribed(floor)
+        if coupled:
+            slow.couplings([(left, right, mobility)])
+        slow.step(0.05, rows, accelerations)
+        carried = sum(slow.wrenches("group")[:2, 2])
+        if coupled:
+            assert carried == pytest.approx(mass * 9.81, rel=1e-6)
+        else:
+            assert carried > 1.2 * mass * 9.81
+    with pytest.raises(pong.BadValueError, match="it is one group"):
+        slow.couplings([(left, left, mobility)])
+    slow.couplings([(left, right, 3.0 * mobility)])
+    with pytest.raises(pong.BadValueError, match="an impulse would move the body against itself"):
+        slow.step(0.05, rows, accelerations)
+    slow.couplings([(left, floor, mobility)])
+    with pytest.raises(pong.BadValueError, match="is not in joints"):
+        slow.step(0.05, rows, accelerations)

@@ -1,6 +1,4 @@
-//! `pong doctor` works on any Linux machine; its findings are tested on records of machines in `pong-doctor`.
-
-#![cfg(target_os = "linux")]
+//! `pong doctor` works on any machine; its findings are tested on records of machines in `pong-doctor`.
 
 use crate::common;
 use crate::common::pong;
@@ -16,7 +14,7 @@ fn text_and_json_have_the_same_findings() {
     let report: Value = serde_json::from_str(&json).unwrap();
     assert_eq!((&report["format"], &report["version"]), (&Value::from("pong-doctor"), &Value::from(1)));
     let findings = report["findings"].as_array().unwrap();
-    assert!(findings.len() > 10);
+    assert!(findings.len() > if cfg!(target_os = "linux") { 10 } else { 4 });
     for finding in findings {
         let word = |name: &str| finding[name].as_str().unwrap().to_owned();
         assert!(text.lines().any(|line| line.contains(&word("name"))), "{finding}");

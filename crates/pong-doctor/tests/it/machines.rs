@@ -1,6 +1,7 @@
 //! Findings on machines whose files are recorded in `recorded/`.
 
-use pong_doctor::{Files, Finding, State, examine};
+use pong_doctor::{Files, Finding, State, examine, examine_elsewhere};
+use pong_threads::system::Grants;
 use std::collections::BTreeMap;
 
 struct Record(BTreeMap<String, String>);
@@ -138,4 +139,21 @@ fn all_advice_has_a_cure() {
             assert_eq!(finding.cure.is_some(), finding.state == State::Advice, "{name}: {finding:?}");
         }
     }
+}
+
+/// A system that can grant nothing is told in its own words, and what was not looked at is told too.
+#[test]
+fn a_system_without_proc_tells_what_it_cannot_grant() {
+    let grants = Grants { system: "none", no_binding: Some("binds nothing"), no_fifo: Some("no priorities") };
+    let findings = examine_elsewhere(&grants, 1, Err("no priorities".to_owned()));
+    assert_found(
+        &findings,
+        &[("core binding", State::Info, "binds nothing"), ("SCHED_FIFO", State::Advice, "no priorities")],
+    );
+    let advised = |name| findings.iter().any(|found| found.name == name && found.cure.is_some());
+    assert!(advised("cores") && advised("SCHED_FIFO") && !advised("core binding"));
+    assert!(findings.iter().any(|found| found.state == State::Unknown));
+    let grants = Grants { no_binding: None, ..grants };
+    let findings = examine_elsewhere(&grants, 4, Ok(()));
+    assert!(findings.iter().all(|found| found.cure.is_none()));
 }

@@ -59,8 +59,8 @@ fn buffer_bytes_per_contact(law_state_len: usize) -> usize {
     size_of::<FrameContact>() + size_of::<ContactRef>() + law_state_len * size_of::<f64>()
 }
 
-/// Maximum memory for contacts; a request for more is probably a typing error.
-const ROOM_BYTES_MAX: usize = 8 << 30;
+/// Maximum memory for contacts; a request for more is probably a typing error. WebAssembly can address 4 GiB.
+const ROOM_BYTES_MAX: usize = if usize::BITS > 32 { 8 << 30 } else { 1 << 30 };
 
 /// Every contact of a thread's buffer has an index that fits into a [`Slot`]. The buffer holds an eighth more
 /// contacts than there are records, and each record takes the memory of at least one contact and two records

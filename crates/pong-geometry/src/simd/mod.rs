@@ -11,8 +11,14 @@ mod derivatives;
 mod first;
 mod functions;
 mod lanes;
+#[cfg(target_arch = "aarch64")]
+mod neon;
 mod numbers;
+#[cfg(any(target_arch = "aarch64", target_feature = "simd128"))]
+mod pairs;
 mod portable;
+#[cfg(target_feature = "simd128")]
+mod simd128;
 mod splat;
 #[cfg(target_arch = "x86_64")]
 mod x86;
@@ -36,42 +42,52 @@ use std::sync::atomic::{AtomicU8, Ordering};
 pub enum Level {
     /// Instructions that every machine of this architecture has.
     Portable = 1,
+    /// Two numbers per instruction (every AArch64).
+    Neon = 2,
+    /// Two numbers per instruction (WebAssembly, compiled with `-C target-feature=+simd128`).
+    Simd128 = 3,
     /// Four numbers per instruction (x86-64 with AVX2).
-    Avx2 = 2,
+    Avx2 = 4,
     /// Eight numbers per instruction (x86-64 with AVX-512).
-    Avx512 = 3,
+    Avx512 = 5,
 }
 
 /// Highest level that kernels may use.
 static LEVEL: AtomicU8 = AtomicU8::new(Level::Avx512 as u8);
 
 impl Level {
-    const ALL: [Self; 3] = [Self::Portable, Self::Avx2, Self::Avx512];
+    const ALL: [Self; 5] = [Self::Portable, Self::Neon, Self::Simd128, Self::Avx2, Self::Avx512];
+
+    fn is_available(self) -> bool {
+        match self {
+            Self::Portable => true,
+            Self::Neon => cfg!(target_arch = "aarch64"),
+            Self::Simd128 => cfg!(target_feature = "simd128"),
+            #[cfg(target_arch = "x86_64")]
+            Self::Avx2 => pulp::x86::V3::is_available(),
+            #[cfg(target_arch = "x86_64")]
+            Self::Avx512 => pulp::x86::V4::is_available(),
+            #[cfg(not(target_arch = "x86_64"))]
+            Self::Avx2 | Self::Avx512 => false,
+        }
+    }
 
     /// Returns the widest level of this machine.
     pub fn best() -> Self {
-        #[cfg(target_arch = "x86_64")]
-        {
-            if pulp::x86::V4::is_available() {
-                return Self::Avx512;
-            }
-            if pulp::x86::V3::is_available() {
-                return Self::Avx2;
-            }
-        }
-        Self::Portable
+        Self::available().max().unwrap_or(Self::Portable)
     }
 
     /// Returns all levels of this machine, the portable one first.
     pub fn available() -> impl Iterator<Item = Self> {
-        let best = Self::best();
-        Self::ALL.into_iter().filter(move |&level| level <= best)
+        Self::ALL.into_iter().filter(|level| level.is_available())
     }
 
     /// Returns the name of the level for reports.
     pub fn name(self) -> &'static str {
         match self {
             Self::Portable => "portable",
+            Self::Neon => "NEON",
+            Self::Simd128 => "simd128",
             Self::Avx2 => "AVX2",
             Self::Avx512 => "AVX-512",
         }
@@ -121,9 +137,11 @@ pub(crate) use run_at_level;
 /// call many small kernels should itself be one kernel.
 #[inline(always)]
 pub fn run<K: Kernel>(kernel: K) -> K::Output {
+    // Without one of the instruction sets below, the portable level is the only one.
+    #[allow(unused_variables)]
+    let most = LEVEL.load(Ordering::Relaxed);
     #[cfg(target_arch = "x86_64")]
     {
-        let most = LEVEL.load(Ordering::Relaxed);
         // The closures are always inlined, so that the kernel is compiled with the instructions of the level.
         if most >= Level::Avx512 as u8
             && let Some(v4) = pulp::x86::V4::try_new()
@@ -142,11 +160,21 @@ pub fn run<K: Kernel>(kernel: K) -> K::Output {
             );
         }
     }
+    #[cfg(target_arch = "aarch64")]
+    if most >= Level::Neon as u8
+        && let Some(neon) = pulp::aarch64::Neon::try_new()
+    {
+        return kernel.run(pairs::Pairs(neon));
+    }
+    #[cfg(target_feature = "simd128")]
+    if most >= Level::Simd128 as u8 {
+        return kernel.run(pairs::Pairs(simd128::Simd128));
+    }
     run_portable(kernel)
 }
 
 /// Runs a kernel at the portable level. Not inlined, so that callers of kernels stay small.
-#[cfg_attr(target_arch = "x86_64", inline(never))]
+#[cfg_attr(any(target_arch = "x86_64", target_arch = "aarch64", target_feature = "simd128"), inline(never))]
 fn run_portable<K: Kernel>(kernel: K) -> K::Output {
     kernel.run(Portable)
 }

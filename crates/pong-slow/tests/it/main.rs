@@ -3,6 +3,7 @@
 mod block;
 mod bounce;
 mod calls;
+mod coupled;
 mod crowded;
 mod dispersed;
 mod hinge;
