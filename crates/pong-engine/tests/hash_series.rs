@@ -32,7 +32,7 @@ const KNOWN: [(&str, u64, u64); 9] = [
     ("crowd", 0xa6efc9208413bcf4, 0x6900a47b22bdebb9),
     ("bowl", 0x776b53145068c012, 0xf1abfd87a2c723bd),
     ("swarm", 0xc0c805106b1b60fc, 0x2f2f4475acb7765d),
-    ("round", 0x4e54a6833def937a, 0x3712fa2e49f0ea62),
+    ("round", 0x9514c7b4e5e4de09, 0x8def6d9b5c91bcb4),
 ];
 
 /// A scene run by the caller alone, with the data needed to continue from any frame.
