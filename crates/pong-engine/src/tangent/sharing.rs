@@ -3,7 +3,7 @@
 use super::contact::Moving;
 use crate::frame::forces::{bristle_share, share_a_bristle};
 use crate::frame::narrow_phase::candidate::ContactCandidate;
-use crate::frame::narrow_phase::element_pair::{BETWEEN_DISCS, BETWEEN_ENDS};
+use crate::frame::narrow_phase::element_pair::BETWEEN_ENDS;
 use nalgebra::{DMatrix, Matrix3xX, RowVector6};
 use pong_geometry::primitive::PrimitiveKind::{
     self, Capsule, Cone, Cylinder, LineSegment, Polyhedron, Ray, Triangle,
@@ -52,13 +52,11 @@ pub(super) fn weigh(kind_a: PrimitiveKind, contacts: &mut [Moving<'_>]) -> Optio
         return Some(());
     }
     contacts.sort_by_key(|moving| moving.contact.found.key.end);
-    // The side of a cylinder on an edge shares with its discs, and the plate between two cylinders with all places;
-    // that has no closed form here.
-    if matches!(kind_a, Cylinder | Cone) && matches!(kind_b, Cylinder | Cone) {
-        return None;
-    }
+    // A cylinder has a closed form on what is flat. On edges its side shares with its discs, and the plate between two
+    // cylinders with all places.
+    let is_on_face = |moving: &Moving<'_>| moving.contact.found.feature.is_face();
     if matches!(kind_a, Cylinder | Cone)
-        && contacts.last().is_some_and(|moving| moving.contact.found.key.end == BETWEEN_DISCS)
+        && (matches!(kind_b, Cylinder | Cone) || on_flat && !contacts.iter().all(is_on_face))
     {
         return None;
     }

@@ -121,10 +121,10 @@ impl Plate {
         if lowest < highest {
             for _ in 0..STEPS {
                 let (mut sum, mut count) = (0.0, 0.0);
-                for index in 0..4 {
-                    for (body, over) in [(0, offset - heights[0][index]), (1, heights[1][index] - offset)] {
+                for (index, (low, high)) in heights[0].iter().zip(&heights[1]).enumerate() {
+                    for (body, height, over) in [(0, low, offset - low), (1, high, high - offset)] {
                         if has(body, index) && over > 0.0 {
-                            sum += if body == 0 { heights[0][index] } else { heights[1][index] };
+                            sum += height;
                             count += 1.0;
                         }
                     }

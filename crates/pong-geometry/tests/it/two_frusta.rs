@@ -126,7 +126,11 @@ fn logs_carry_what_their_places_say() {
     // middles at which ½ + 2s² + ½ + 2t² is least, s and t measured from the middles in lengths.
     close(stored(&a(0.0, 0.0, Vec3::x()), &b), 1.0, 1e-12);
     let [of_a, of_b] = [1.6_f64, 2.0].map(|length| 2.0 / (length * length));
-    close(stored(&a(0.1, 0.0, Vec3::x()), &b), 1.0 / (1.0 + 0.01 * of_a * of_b / (of_a + of_b)), 1e-12);
+    close(
+        stored(&a(0.1, 0.0, Vec3::x()), &b),
+        1.0 / (1.0 + 0.01 * of_a * of_b / (of_a + of_b)),
+        DEPTH * DEPTH,
+    );
     close(stored(&a(0.0, 0.0, Vec3::y()), &b), 1.0, 1e-12);
     // The middle of A on a place t of B: 1/(½ + (1 − t)² + t²); turning the normal helps by the order of the depth.
     for x in [0.4, 0.9] {

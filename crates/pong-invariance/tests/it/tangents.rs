@@ -48,8 +48,10 @@ fn every_family(claim: &str) {
         let found: String = survey.found.iter().map(|found| found.text()).collect();
         print!("{found}");
         assert!(tally.differ <= scenes() * KINKS_MOST / 1000, "{}\n{found}", survey.text());
-        // Solids have no potential, and their tangents are compared where closed forms take part.
-        let is_met = tally.compared > scenes() / 4 || (claim == "potential" && tally.compared == 0);
+        // Solids have no potential, and their tangents are compared where closed forms take part. Cylinders and cones
+        // have closed forms on faces alone.
+        let least = if family.starts_with("wheel") { scenes() / 10 } else { scenes() / 4 };
+        let is_met = tally.compared > least || (claim == "potential" && tally.compared == 0);
         assert!(is_met, "{family}: only {} compared", tally.compared);
     }
 }
