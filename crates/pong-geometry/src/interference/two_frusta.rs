@@ -151,6 +151,9 @@ impl Plate {
     fn best_normal(&self, [a, b]: [&Frustum; 2]) -> Option<Vec3> {
         /// Depth, relative to the smallest radius or length, above which the search starts everywhere.
         const SHALLOW: f64 = 0.1;
+        /// Steps of a descent.
+        const FEW: usize = 12;
+        const MANY: usize = 80;
         let first =
             [0.5, 0.0, 1.0].map(|at| of_frustum(&(a.ends[0] + (a.ends[1] - a.ends[0]) * at), b).normal_b);
         let back =
@@ -165,8 +168,9 @@ impl Plate {
             return None;
         }
         let energy = |n: &Vec3| self.along(n).energy;
-        let descend = |n: &Vec3| self.descend(n);
-        let best = least_of_many(starts.into_iter(), energy, descend)?;
+        // Which minimum is the least shows after a few steps; only that one is followed to its bottom.
+        let descend = |n: &Vec3| self.descend(n, FEW);
+        let best = self.descend(&least_of_many(starts.into_iter(), energy, descend)?, MANY);
         let size = [a, b].map(|body| body.radii[0].max(body.radii[1]).min(body.length));
         let depth = self.along(&best).energy.sqrt();
         if depth < SHALLOW * size[0].min(size[1]) {
@@ -177,18 +181,17 @@ impl Plate {
             [*axis, other, axis.cross(&other)]
         };
         let all = lattice(frame(&a.axis)).chain(lattice(frame(&b.axis))).chain([best]);
-        least_of_many(all, energy, descend)
+        Some(self.descend(&least_of_many(all, energy, descend)?, MANY))
     }
 
-    /// Returns a normal at which the energy is a local minimum, or at which it is zero.
-    fn descend(&self, start: &Vec3) -> Vec3 {
-        const STEPS: usize = 80;
+    /// Returns a normal at which the energy is a local minimum, or at which it is zero, or the one after `steps` steps.
+    fn descend(&self, start: &Vec3, steps: usize) -> Vec3 {
         /// Longest step, rad.
         const FARTHEST: f64 = 0.3;
         let (mut n, mut damping) = (*start, 0.0);
         let mut here = self.along(&n);
         let (mut slope, mut bend) = here.derivatives(&n);
-        for _ in 0..STEPS {
+        for _ in 0..steps {
             let size = here.places.iter().flatten().map(|place| place.place.amax()).fold(0.0, f64::max);
             let force = here.energy.sqrt();
             if here.energy <= 0.0 || slope.norm() <= f64::EPSILON * force * size {
