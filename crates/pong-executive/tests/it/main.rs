@@ -10,6 +10,7 @@ mod long_frames;
 mod modes;
 mod moving_surfaces;
 mod resistance;
+mod rolling;
 mod scene_faults;
 mod scene_format;
 mod solids;
