@@ -41,11 +41,14 @@ impl EndDisc<'_> {
 
     /// Returns the contact of the disc along the normal of the contact of its ellipsoid; `None` if it does not reach.
     pub fn exact(&self, contact: &Interference) -> Option<Interference> {
-        let Interference { depth, normal_b, .. } = *contact;
-        let deepest_b = self.frustum.ends[self.end] + self.lowest(&normal_b);
-        let flat = self.frustum.flat_ellipsoid(self.end);
-        let sine = normal_b.cross(&self.frustum.axis).norm();
-        let depth = depth - (flat.half_width(&normal_b) - self.radius() * sine);
+        let Interference { depth, normal_b, feature, .. } = *contact;
+        let half_width = self.frustum.flat_ellipsoid(self.end).half_width(&normal_b);
+        let of_rim = self.radius() * normal_b.cross(&self.frustum.axis).norm();
+        let lowest = self.lowest(&normal_b);
+        // An edge or a corner may lie under the flat of the disc, away from the rim.
+        let place = if feature.is_face() { lowest } else { lowest * (of_rim / half_width) };
+        let deepest_b = self.frustum.ends[self.end] + place;
+        let depth = depth - (half_width - of_rim);
         (depth > 0.0).then_some(Interference { depth, deepest_b, ..*contact })
     }
 
