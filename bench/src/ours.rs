@@ -570,7 +570,7 @@ fn frustum_on_triangle(a: &Frustum, b: &MovableGroup) -> Option<Interference> {
         let (outwards_b, free_outward_b, feature) = (None, Some(view.outward(k)), Feature::edge(k));
         side_edge(a, &ConvexEdge { ends_b, normals_b, outwards_b, free_outward_b, feature })
     });
-    let thickness = a.smallest_radius_m().unwrap_or(0.0);
+    let thickness = a.radii[0].min(a.radii[1]);
     let over = |end| last(|emit| EndDisc { frustum: a, end }.on_triangle(&b.triangles, 0, thickness, emit));
     deepest((0..2).map(over).chain(sides))
 }
