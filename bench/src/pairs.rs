@@ -313,6 +313,8 @@ fn pose(
     match target {
         // A body in a hole begins to touch on its way outward.
         Target::Bore => place(random, !hit, at, |x| !touches(x)),
+        // The thin end of a cone is not pushed by a triangle, which has one side, once its centre is behind it.
+        Target::Triangle if mover == Mover::Cone => place_up_to(0.25 * RADIUS, random, hit, at, touches),
         _ => place(random, hit, at, touches),
     }
 }
@@ -325,6 +327,17 @@ pub fn place(
     at: impl Fn(f64) -> Pose,
     touches: impl Fn(&Transform) -> bool,
 ) -> Pose {
+    place_up_to(DEPTHS.1, random, hit, at, touches)
+}
+
+/// As [`place`], at most `deepest` before they separate, m.
+fn place_up_to(
+    deepest: f64,
+    random: &mut Random,
+    hit: bool,
+    at: impl Fn(f64) -> Pose,
+    touches: impl Fn(&Transform) -> bool,
+) -> Pose {
     // Convex bodies overlap along one interval of a line: from the middle outward to first contact.
     let (mut inside, mut outside) = (0.0, 4.0);
     for _ in 0..60 {
@@ -332,7 +345,7 @@ pub fn place(
         *(if touches(&at(half).transform()) { &mut inside } else { &mut outside }) = half;
     }
     at(match hit {
-        true => inside - random.between(DEPTHS.0, DEPTHS.1).min(inside),
+        true => inside - random.between(DEPTHS.0, deepest).min(inside),
         false => inside + random.between(GAPS.0, GAPS.1),
     })
 }
