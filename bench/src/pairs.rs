@@ -368,7 +368,9 @@ fn usable_line(mover: Mover, target: &Target, orientation: &Quat, line: Vec3) ->
         (_, Target::Plane) => (upward.z > 0.5).then_some(upward),
         (Mover::Ray, _) => Some((line - direction * line.dot(&direction)).normalize()),
         // A capsule that lies flat: beside a thin triangle the lower end of an upright one is soon behind it.
-        (Mover::Capsule, Target::Triangle) => (direction.z.abs() < 0.3 && upward.z > 0.5).then_some(upward),
+        (Mover::Capsule | Mover::Cone, Target::Triangle) => {
+            (direction.z.abs() < 0.3 && upward.z > 0.5).then_some(upward)
+        }
         (_, Target::Triangle) => Some(upward),
         _ => Some(line),
     }
