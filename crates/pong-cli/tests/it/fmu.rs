@@ -24,7 +24,10 @@ fn what_is_refused_leaves_the_file_that_was_there() {
     let folder = folder("fmu_refused", &[("old.fmu", "old"), ("other.so", "no library")]);
     let absent: &Path = &folder.join("none.so");
     for (arguments, told) in [
-        (["--library", "other.so"], "other.so: it is no shared library for Linux or macOS on x86-64 or AArch64"),
+        (
+            ["--library", "other.so"],
+            "other.so: it is no shared library for Linux or macOS on x86-64 or AArch64",
+        ),
         (["--library", absent.to_str().unwrap()], "none.so: cannot be read"),
         (["--input", "tripot"], "input `tripot`: the scene has no such body; name one of: ground, tripod"),
         (["--input", "ground/leg"], "input `ground/leg`"),
