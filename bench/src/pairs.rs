@@ -313,8 +313,11 @@ fn pose(
     match target {
         // A body in a hole begins to touch on its way outward.
         Target::Bore => place(random, !hit, at, |x| !touches(x)),
-        // The thin end of a cone is not pushed by a triangle, which has one side, once its centre is behind it.
-        Target::Triangle if mover == Mover::Cone => place_up_to(0.25 * RADIUS, random, hit, at, touches),
+        // An end disc is not pushed by a triangle, which has one side, once its centre is behind it, nor a side by an edge
+        // that its axis has passed.
+        Target::Triangle | Target::Hull(_) if matches!(mover, Mover::Cylinder | Mover::Cone) => {
+            place_up_to(0.25 * RADIUS, random, hit, at, touches)
+        }
         _ => place(random, hit, at, touches),
     }
 }
@@ -340,6 +343,13 @@ fn place_up_to(
 ) -> Pose {
     // Convex bodies overlap along one interval of a line: from the middle outward to first contact.
     let (mut inside, mut outside) = (0.0, 4.0);
+    if deepest < DEPTHS.1 {
+        // Those that do not touch once they are deeper: from outside, in steps that are shorter.
+        while outside > deepest && !touches(&at(outside - 0.5 * deepest).transform()) {
+            outside -= 0.5 * deepest;
+        }
+        inside = outside - 0.5 * deepest;
+    }
     for _ in 0..60 {
         let half = 0.5 * (inside + outside);
         *(if touches(&at(half).transform()) { &mut inside } else { &mut outside }) = half;
@@ -368,7 +378,7 @@ fn usable_line(mover: Mover, target: &Target, orientation: &Quat, line: Vec3) ->
         (_, Target::Plane) => (upward.z > 0.5).then_some(upward),
         (Mover::Ray, _) => Some((line - direction * line.dot(&direction)).normalize()),
         // A capsule that lies flat: beside a thin triangle the lower end of an upright one is soon behind it.
-        (Mover::Capsule | Mover::Cone, Target::Triangle) => {
+        (Mover::Capsule | Mover::Cylinder | Mover::Cone, Target::Triangle) => {
             (direction.z.abs() < 0.3 && upward.z > 0.5).then_some(upward)
         }
         (_, Target::Triangle) => Some(upward),

