@@ -375,6 +375,9 @@ pong_status evaluate_slow(slow_copies *copies, const contact_world *w, const mjM
      * limit. So the step is tried with the wrenches, until it ends where they were made for. */
     for (round = 1; round < ROUNDS_MAX && status == PONG_STATUS_OK; round++) {
         read_pushes(copies, w, m);
+        /* Nothing touches: the step is the one that was made already. */
+        if (mju_norm(copies->pushes, m->nv) == 0)
+            break;
         step_with_pushes(copies, m, d);
         if (read_error(copies, m))
             break;
