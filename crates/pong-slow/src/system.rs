@@ -22,13 +22,13 @@ impl<'c> System<'c> {
     pub fn new(bodies: Vec<Body>, couplings: &'c [Coupling]) -> Result<Self, SlowError> {
         let homes = vec![None; bodies.len()];
         let mut system = Self { bodies, assemblies: Vec::new(), couplings, homes };
+        system.require_joints()?;
         system.assemble()?;
         Ok(system)
     }
 
     /// Forms the assemblies for the poses that the bodies have.
     fn assemble(&mut self) -> Result<(), SlowError> {
-        self.require_joints()?;
         let mut mobilities = Vec::with_capacity(self.bodies.len());
         for body in &self.bodies {
             mobilities.push(body.mobility()?);
