@@ -284,8 +284,7 @@ impl<'a> Frame<'a> {
             return self.moves_of_ray(&ray.carried(x_ba), found);
         }
         let on_edge = !found.feature.is_face();
-        // A segment that leaves a solid through a face may push along another line than that of the edge.
-        if on_edge && (kind_a, found.kind_b) == (PrimitiveKind::LineSegment, PrimitiveKind::Polyhedron) {
+        if self.is_bar_between_ends(kind_a, found) {
             return None;
         }
         let of_a = AtContact::new(element_a, x_ab.point(&found.deepest_b), -x_ab.vector(&normal));
@@ -294,6 +293,23 @@ impl<'a> Frame<'a> {
         // On a flat face the face gives the normal; elsewhere the end of a wall does not turn it like a rim.
         let is_unique = matches!(shape_b, Shape::Flat) || !of_a.is_end_of_wall();
         if is_unique { touch.moves(&shape_a, &shape_b) } else { None }
+    }
+
+    /// True where the load of a segment or a capsule on a polyhedron moves along its axis, with the normal or the weights:
+    /// unless it is at an end, or both ends are over one face.
+    fn is_bar_between_ends(&self, kind_a: PrimitiveKind, found: &ContactCandidate) -> bool {
+        if found.kind_b != PrimitiveKind::Polyhedron || found.shares {
+            return false;
+        }
+        let ends = match self.context.body_a.element(kind_a, found.element_a) {
+            PrimitiveRef::LineSegment(segment) => segment.ends,
+            PrimitiveRef::Capsule(capsule) => capsule.ends,
+            _ => return false,
+        };
+        let [own, other] = [found.key.end, 1 - found.key.end].map(|end| ends[end as usize]);
+        let along = self.context.motion.x_ba.vector(&(other - own));
+        let is_at_end = found.depth <= found.normal_b.dot(&along);
+        found.weight != 1.0 || !(found.feature.is_face() || is_at_end)
     }
 
     fn moves_of_ray(&self, ray: &Ray, found: &ContactCandidate) -> Option<Moves> {

@@ -7,7 +7,7 @@ use pong_geometry::primitive::{Capsule, LineSegment};
 use pong_geometry::{Quat, Transform, Vec3, Wrench};
 use pong_testkit::{Random, assert_near, long_samples};
 
-fn capsule(ends: [[f64; 3]; 2], radius: f64) -> Capsule {
+pub fn capsule(ends: [[f64; 3]; 2], radius: f64) -> Capsule {
     Capsule { ends: ends.map(Vec3::from), radius }
 }
 
@@ -120,7 +120,7 @@ fn the_energy_is_the_least_on_a_plane_between_the_two() {
 }
 
 /// Capsule moved by a screw: translation and rotation vector.
-fn moved(a: &Capsule, shift: &Vec3, turn: &Vec3) -> Capsule {
+pub fn moved(a: &Capsule, shift: &Vec3, turn: &Vec3) -> Capsule {
     let turn = Quat::from_scaled_axis(*turn);
     Capsule { ends: a.ends.map(|end| turn * end + shift), radius: a.radius }
 }
@@ -173,6 +173,38 @@ fn work(at: &impl Fn(f64) -> f64, [from, to]: [f64; 2], power: [f64; 3], depth: 
         + work(at, [middle, to], halves[1], depth - 1, limit)
 }
 
+/// Energy that appears or vanishes along a screw, over the largest stored; `None` if hardly anything is stored.
+pub fn gained_along(
+    a: &Capsule,
+    shift: &Vec3,
+    turn: &Vec3,
+    energy: &dyn Fn(&Capsule) -> f64,
+    wrench: &dyn Fn(&Capsule) -> Wrench,
+) -> Option<f64> {
+    let place = |s: f64| moved(a, &(shift * s), &(turn * s));
+    let power = |s: f64| {
+        let Wrench { force, moment } = wrench(&place(s));
+        // The screw turns about the origin of A's frame, which is at shift·s.
+        force.dot(shift) + (moment - (shift * s).cross(&force)).dot(turn)
+    };
+    let samples = [0.0, 0.25, 0.5, 0.75, 1.0].map(|s| energy(&place(s)));
+    let largest = samples.into_iter().fold(0.0, f64::max);
+    if largest < 1e-4 {
+        return None;
+    }
+    let energies = samples[4] - samples[0];
+    let gained_in = |parts: i32, limit: f64| {
+        let of_part = |k: i32| {
+            let [from, to] = [k, k + 1].map(|k| f64::from(k) / f64::from(parts));
+            let at_three = [from, 0.5 * (from + to), to].map(power);
+            work(&power, [from, to], at_three, 36, limit * largest)
+        };
+        ((0..parts).map(of_part).sum::<f64>() + energies).abs() / largest
+    };
+    // Halves may agree by chance beside a kink: where that shows, smaller ones tell.
+    Some(gained_in(16, 3e-10)).filter(|gained| *gained < 1e-9).or_else(|| Some(gained_in(256, 1e-11)))
+}
+
 /// Along random paths, deep ones and through square axes included, the work of the wrench is the energy that is
 /// stored less: none appears or vanishes.
 #[test]
@@ -182,30 +214,8 @@ fn paths_gain_and_lose_nothing() {
     for case in 0..long_samples(600, 100_000) {
         let (a, b) = random_pair(&mut random, 0.1);
         let (shift, turn) = (random.vector(0.3), random.vector(0.6));
-        let place = |s: f64| moved(&a, &(shift * s), &(turn * s));
-        let power = |s: f64| {
-            let Wrench { force, moment } = wrench(&place(s), &b);
-            // The screw turns about the origin of A's frame, which is at shift·s.
-            force.dot(&shift) + (moment - (shift * s).cross(&force)).dot(&turn)
-        };
-        let samples = [0.0, 0.25, 0.5, 0.75, 1.0].map(|s| energy(&place(s), &b));
-        let largest = samples.into_iter().fold(0.0, f64::max);
-        if largest < 1e-4 {
-            continue;
-        }
-        let energies = samples[4] - samples[0];
-        let gained_in = |parts: i32, limit: f64| {
-            let of_part = |k: i32| {
-                let [from, to] = [k, k + 1].map(|k| f64::from(k) / f64::from(parts));
-                let at_three = [from, 0.5 * (from + to), to].map(power);
-                work(&power, [from, to], at_three, 36, limit * largest)
-            };
-            ((0..parts).map(of_part).sum::<f64>() + energies).abs() / largest
-        };
-        // Halves may agree by chance beside a kink: where that shows, smaller ones tell.
-        let gained = Some(gained_in(16, 3e-10))
-            .filter(|gained| *gained < 1e-9)
-            .unwrap_or_else(|| gained_in(256, 1e-11));
+        let gained = gained_along(&a, &shift, &turn, &|a| energy(a, &b), &|a| wrench(a, &b));
+        let Some(gained) = gained else { continue };
         assert!(gained < 1e-9, "case {case}: {gained:e} of the largest stored {a:?} {b:?}");
         worst = worst.max(gained);
         touching += 1;

@@ -1,0 +1,432 @@
+//! Line segment and capsule (A) – convex solid of planar faces (B): the two ends of the axis yield
+//! (docs/theory.md, 2.8).
+//!
+//! Let x be a place on the axis, −½ at end 0 and ½ at end 1, and W = 1 + 4x². On a plane that has B behind it,
+//! the axis stores ¼k·(e₀² + e₁²), with e₀ and e₁ the depths of its ends, or 0 above the plane. The plane that
+//! stores least pushes. Its load acts at one place x of the axis, at the depth δ: it stores ½k·δ²/W.
+//!
+//! * *Place of the load outside B.* Then δ is the radius minus the distance of the place from B, and no other place has
+//!   more δ²/W. A place that has the most, and is outside, gives the least energy on planes.
+//! * *Otherwise* the plane is that of a face, or touches B along an edge. Turned about a vertex, about the part of the
+//!   axis across the normal, it would store less.
+
+use super::capsule_polyhedron::{CapsuleAtPiece, each_edge_near};
+use super::line_segment_polyhedron::part_in_solid;
+use super::round_surface::ROUNDING;
+use super::sphere_polyhedron::sphere_outside_polyhedron;
+use super::two_capsules::{OverlapContacts, lever_shares, zero_of_rising};
+use super::two_ended_round::EndContact;
+use super::{Feature, Interference};
+use crate::primitive::{Capsule, LineSegment, Polyhedron, Sphere};
+use crate::simd::{LANES, Simd, Splat, run_at_level};
+use crate::{Vec3, divisor};
+
+/// Tests a segment against a convex solid all of whose faces push.
+#[inline]
+pub fn segment_solid(segment: &LineSegment, polyhedron: &Polyhedron) -> OverlapContacts {
+    let Some(part) = part_in_solid(segment, polyhedron) else { return [None; 2] };
+    let bar = Bar::new(&segment.ends, 0.0, polyhedron);
+    match bar.sunk_in(&[]) {
+        Some(load) => bar.contacts(&load, part.map(|at| at - 0.5)),
+        None => [None; 2],
+    }
+}
+
+/// Tests a capsule against a convex solid all of whose faces push. If the place of the load is inside the solid, and
+/// `entered` is not empty, only these faces, their neighbours and the edges of these faces push.
+#[inline]
+pub fn capsule_solid(capsule: &Capsule, polyhedron: &Polyhedron, entered: &[usize]) -> OverlapContacts {
+    if CapsuleAtPiece::new(capsule, polyhedron).is_none() {
+        return [None; 2];
+    }
+    let bar = Bar::new(&capsule.ends, capsule.radius, polyhedron);
+    let at_ends = [-0.5, 0.5].map(|at| bar.nearest(at, capsule.radius));
+    let load = match bar.outside(&at_ends) {
+        Outside::Apart => None,
+        Outside::Load(load) => Some(load),
+        Outside::SunkIn => bar.sunk_in(entered),
+    };
+    match load {
+        Some(load) => bar.contacts(&load, bar.overlap(&load, &at_ends)),
+        None => [None; 2],
+    }
+}
+
+/// A bar of two half springs in B's frame.
+struct Bar<'a> {
+    ends: [Vec3; 2],
+    /// Vector from end 0 to end 1, m.
+    along: Vec3,
+    radius: f64,
+    polyhedron: &'a Polyhedron,
+}
+
+/// Load on the plane of least energy.
+#[derive(Clone, Copy, Debug)]
+struct Load {
+    /// Its place on the axis, −½…½.
+    at: f64,
+    /// Depth δ at this place, m.
+    depth: f64,
+    normal_b: Vec3,
+    feature: Feature,
+}
+
+/// Nearest point of the solid to a place of the axis.
+#[derive(Clone, Copy, Debug)]
+enum Nearest {
+    /// The place is inside the solid.
+    Inside,
+    /// Distance, m, direction from there to the place, and feature.
+    At(f64, Vec3, Feature),
+    /// The distance exceeds the reach of the search.
+    Far,
+}
+
+/// Outcome of the search for a load at a place outside.
+enum Outside {
+    Apart,
+    Load(Load),
+    /// The place of the load is inside the solid.
+    SunkIn,
+}
+
+/// Energies within this factor count as equal, so that rounding does not choose between equal faces.
+const TIE: f64 = 1.0 - 1e-12;
+
+/// Returns W.
+fn spread(at: f64) -> f64 {
+    1.0 + 4.0 * at * at
+}
+
+impl<'a> Bar<'a> {
+    fn new(ends: &[Vec3; 2], radius: f64, polyhedron: &'a Polyhedron) -> Self {
+        Self { ends: *ends, along: ends[1] - ends[0], radius, polyhedron }
+    }
+
+    /// Returns a place of the axis, m.
+    fn place(&self, at: f64) -> Vec3 {
+        if at <= 0.0 {
+            self.ends[0] + self.along * (at + 0.5)
+        } else {
+            self.ends[1] + self.along * (at - 0.5)
+        }
+    }
+
+    /// Rounding error of a distance, m.
+    fn rounding(&self) -> f64 {
+        ROUNDING * self.ends[0].amax().max(self.ends[1].amax())
+    }
+
+    /// Returns the point of the solid nearest to a place of the axis, if it is nearer than `reach` (m).
+    fn nearest(&self, at: f64, reach: f64) -> Nearest {
+        let center = self.place(at);
+        if self.polyhedron.contains(&center) {
+            return Nearest::Inside;
+        }
+        match sphere_outside_polyhedron(&Sphere { center, radius: reach }, self.polyhedron) {
+            Some(found) => Nearest::At(reach - found.depth, found.normal_b, found.feature),
+            None => Nearest::Far,
+        }
+    }
+
+    /// Searches the place of most δ²/W, given the nearest points at the two ends within the radius.
+    fn outside(&self, at_ends: &[Nearest; 2]) -> Outside {
+        let load = |at: f64, distance: f64, normal_b: Vec3, feature: Feature| Load {
+            at,
+            depth: self.radius - distance,
+            normal_b,
+            feature,
+        };
+        // At an end that touches, if δ²/W falls from there.
+        for (at, near) in [-0.5, 0.5].into_iter().zip(at_ends) {
+            if let Nearest::At(distance, normal, feature) = *near
+                && normal.dot(&self.along) * (2.0 * at) <= distance - self.radius
+            {
+                return Outside::Load(load(at, distance, normal, feature));
+            }
+        }
+        // Both ends over one face.
+        if let [Nearest::At(one, normal, feature), Nearest::At(other, _, same)] = *at_ends
+            && feature == same
+            && feature.is_face()
+        {
+            let depths = [self.radius - one, self.radius - other];
+            return Outside::Load(self.on_plane(depths, normal, feature));
+        }
+        let start = match at_ends {
+            [Nearest::At(..), Nearest::Far] => -0.5,
+            [Nearest::Far, Nearest::At(..)] => 0.5,
+            _ => 0.0,
+        };
+        let reach = self.radius + self.along.norm();
+        let (at, found) = zero_of_rising(start, |at| {
+            let near = self.nearest(at, reach);
+            let (value, slope) = self.slope(at, &near);
+            (value, slope, (at, near))
+        });
+        match found {
+            Nearest::At(distance, ..) if distance >= self.radius => Outside::Apart,
+            Nearest::At(distance, normal, feature) if distance > self.rounding() => {
+                Outside::Load(load(at, distance, normal, feature))
+            }
+            Nearest::Far => Outside::Apart,
+            _ => Outside::SunkIn,
+        }
+    }
+
+    /// Returns the derivative of −ln(δ/√W) by the place, times δ, and the derivative of this where it is zero, m.
+    fn slope(&self, at: f64, near: &Nearest) -> (f64, f64) {
+        let spread = spread(at);
+        let pull = |depth: f64| 4.0 * depth.max(0.0) / spread;
+        match near {
+            // Nothing touches: the search may end anywhere.
+            Nearest::Far => (0.0, 1.0),
+            Nearest::Inside => (pull(self.radius) * at, pull(self.radius) / spread),
+            Nearest::At(distance, normal, feature) => {
+                let lean = normal.dot(&self.along);
+                let depth = self.radius - distance;
+                let bends = match feature.kind() {
+                    super::FeatureKind::Face => 0.0,
+                    super::FeatureKind::Edge => {
+                        let edge = &self.polyhedron.edges[feature.index()].direction;
+                        self.along.norm_squared() - edge.dot(&self.along).powi(2) - lean * lean
+                    }
+                    super::FeatureKind::Vertex => self.along.norm_squared() - lean * lean,
+                };
+                let bend = bends.max(0.0) / distance.max(f64::EPSILON * self.radius);
+                (lean + pull(depth) * at, bend + pull(depth) / spread)
+            }
+        }
+    }
+
+    /// Returns the load on a plane below which the ends have these depths, of which one at least is positive.
+    fn on_plane(&self, depths: [f64; 2], normal_b: Vec3, feature: Feature) -> Load {
+        let (at, depth) = match depths {
+            [one, other] if other <= 0.0 => (-0.5, one),
+            [one, other] if one <= 0.0 => (0.5, other),
+            [one, other] => {
+                let at = 0.5 * ((other - one) / (one + other));
+                (at, 0.5 * (one + other) + at * (other - one))
+            }
+        };
+        Load { at, depth, normal_b, feature }
+    }
+
+    /// Returns the load if its place is inside the solid; `None` if nothing pushes.
+    fn sunk_in(&self, entered: &[usize]) -> Option<Load> {
+        let polyhedron = self.polyhedron;
+        let face = match entered {
+            [] => least_face_of(self, polyhedron)?,
+            _ => self.least_of_near(entered)?,
+        };
+        let depths = self.depths_below(face);
+        let mut energy = depths.map(|depth| depth.max(0.0) * depth.max(0.0)).iter().sum::<f64>();
+        let mut best = self.on_plane(depths, polyhedron.faces[face].normal, Feature::face(face));
+        // The load is √(½·W·energy) deep, and W is 2 at most.
+        let reach = energy.sqrt() - self.radius;
+        let mut try_edge = |index: usize| {
+            if let Some((stored, load)) = self.at_edge(index, energy * TIE) {
+                (energy, best) = (stored, load);
+            }
+        };
+        match entered {
+            [] => each_edge_near(&self.ends, reach, polyhedron, &mut try_edge),
+            _ => {
+                let rims = entered.iter().flat_map(|&face| polyhedron.rim(face));
+                rims.for_each(|rim| try_edge(rim.edge as usize));
+            }
+        }
+        Some(best)
+    }
+
+    fn depths_below(&self, face: usize) -> [f64; 2] {
+        self.ends.map(|end| self.radius - self.polyhedron.height(face, &end))
+    }
+
+    /// Returns the face of least energy among some faces and their neighbours; `None` if it stores none.
+    fn least_of_near(&self, faces: &[usize]) -> Option<usize> {
+        let beside =
+            faces.iter().flat_map(|&face| self.polyhedron.rim(face)).map(|rim| rim.neighbor as usize);
+        let energy = |face: usize| {
+            self.depths_below(face).iter().map(|depth| depth.max(0.0) * depth.max(0.0)).sum::<f64>()
+        };
+        let least = faces.iter().copied().chain(beside).map(|face| (energy(face), face));
+        let (energy, face) = least.reduce(|a, b| if b.0 < a.0 * TIE { b } else { a })?;
+        (energy > 0.0).then_some(face)
+    }
+
+    /// Returns what the plane through an edge that the axis has sunk below stores, as e₀² + e₁², and its load; `None`
+    /// if no such plane stores less than its neighbours, or if it stores `most` or more.
+    ///
+    /// Across the edge, let L be the length of the axis, f the place on it nearest to the edge, and H the distance
+    /// there. At the place x the edge is d = √(H² + L²·(x − f)²) away, δ = r + d, and the plane is square to this
+    /// direction. The energy is stationary where d'·W = 4x·δ. With x = f·y this is
+    ///
+    /// ```text
+    /// ¼L²·(1 − 1/y + 4f²·(y − 1)) = H² + r·d
+    /// ```
+    ///
+    /// The difference of the two sides is concave in y and negative at y = 1: Newton's steps from there rise to its
+    /// first zero, which is the minimum. There is none on the other side of f.
+    fn at_edge(&self, index: usize, most: f64) -> Option<(f64, Load)> {
+        const STEPS: usize = 50;
+        let edge = &self.polyhedron.edges[index];
+        let push = edge.push.as_ref()?;
+        let across = |v: Vec3| v - edge.direction * edge.direction.dot(&v);
+        let along = across(self.along);
+        let square = along.norm_squared();
+        if square <= f64::EPSILON * self.along.norm_squared() {
+            return None;
+        }
+        let from_middle = self.polyhedron.vertices[edge.vertices[0] as usize].position - self.place(0.0);
+        let foot = from_middle.dot(&along) / square;
+        // The normal leans towards the middle of the axis.
+        let leans = |normal: &Vec3| normal.dot(&along) * foot <= 0.0;
+        if foot.abs() >= 0.5 || !push.normals.iter().any(leans) {
+            return None;
+        }
+        let mut away = edge.direction.cross(&along).normalize();
+        let mut height = away.dot(&from_middle);
+        let is_inward = away.dot(&(push.normals[0] + push.normals[1])) < 0.0;
+        if height < 0.0 || (is_inward && height <= self.rounding()) {
+            (away, height) = (-away, height.abs());
+        }
+        if (self.radius + height) * (self.radius + height) >= most {
+            return None;
+        }
+        let (quarter, feet) = (0.25 * square, 4.0 * foot * foot);
+        let mut ratio = 1.0;
+        let mut distance = height;
+        for _ in 0..STEPS {
+            let beyond = foot * (ratio - 1.0);
+            distance = (height * height + square * beyond * beyond).sqrt();
+            let left = quarter * (1.0 - 1.0 / ratio + feet * (ratio - 1.0));
+            let difference = left - height * height - self.radius * distance;
+            let falls = self.radius * square * foot * beyond / divisor(distance);
+            let slope = quarter * (1.0 / (ratio * ratio) + feet) - falls;
+            if slope <= 0.0 {
+                return None;
+            }
+            let next = ratio - difference / slope;
+            if next * foot.abs() >= 0.5 {
+                return None;
+            }
+            let step = (next - ratio).abs();
+            ratio = next;
+            if step <= f64::EPSILON * ratio {
+                break;
+            }
+        }
+        let at = foot * ratio;
+        let (depth, spread) = (self.radius + distance, spread(at));
+        let energy = 2.0 * depth * depth / spread;
+        let lean = -4.0 * at * depth / (spread * square.sqrt());
+        let rest = 1.0 - lean * lean;
+        if energy >= most || rest <= 0.0 {
+            return None;
+        }
+        let normal_b = (along * (lean / square.sqrt()) + away * rest.sqrt()).normalize();
+        let is_between = push.outwards.iter().all(|outward| outward.dot(&normal_b) > 0.0);
+        is_between.then_some((energy, Load { at, depth, normal_b, feature: Feature::edge(index) }))
+    }
+
+    /// Returns the part of the axis that is less than the radius away from the solid, as places from −½ to ½.
+    fn overlap(&self, load: &Load, at_ends: &[Nearest; 2]) -> [f64; 2] {
+        let reach = self.radius + self.along.norm();
+        [0, 1].map(|end| {
+            let tip = [-0.5, 0.5][end];
+            match at_ends[end] {
+                Nearest::Inside => tip,
+                Nearest::At(distance, ..) if distance < self.radius => tip,
+                _ if load.at == tip || load.at == -tip => load.at,
+                _ => self.leaves(load.at, tip, reach),
+            }
+        })
+    }
+
+    /// Returns the place where the axis comes within the radius of the solid on its way from an end to the load, by
+    /// Newton's steps: the distance is convex, so they come from one side.
+    fn leaves(&self, load: f64, tip: f64, reach: f64) -> f64 {
+        const STEPS: usize = 40;
+        let mut at = tip;
+        for _ in 0..STEPS {
+            let Nearest::At(distance, normal, _) = self.nearest(at, reach) else { break };
+            let rate = normal.dot(&self.along);
+            let next = at - (distance - self.radius) / divisor(rate);
+            if distance <= self.radius || rate * tip <= 0.0 {
+                break;
+            }
+            if (next - load) * tip <= 0.0 {
+                return load;
+            }
+            let step = (next - at).abs();
+            at = next;
+            if step <= 4.0 * f64::EPSILON {
+                break;
+            }
+        }
+        at
+    }
+
+    /// Returns the contacts that carry a load, at the two ends of the overlap by the lever rule, each as deep as its
+    /// place is below the plane. Where the whole axis overlaps, these are the two half springs at its ends. Below a
+    /// sharp edge the load may be beside the overlap, which then reaches to it.
+    fn contacts(&self, load: &Load, [from, to]: [f64; 2]) -> OverlapContacts {
+        let lean = load.normal_b.dot(&self.along);
+        let overlap = [from.min(load.at), to.max(load.at)];
+        let levers = lever_shares(&overlap, load.at);
+        [0, 1].map(|end| {
+            let at = overlap[end];
+            let depth = load.depth - lean * (at - load.at);
+            if depth <= 0.0 || levers[end] <= 0.0 {
+                return None;
+            }
+            let is_whole = overlap == [-0.5, 0.5];
+            let share = match is_whole {
+                true => 1.0,
+                false => 2.0 * levers[end] * load.depth / (spread(load.at) * depth),
+            };
+            let interference = Interference {
+                depth,
+                normal_b: load.normal_b,
+                deepest_b: self.place(at) - load.normal_b * self.radius,
+                feature: load.feature,
+            };
+            Some(EndContact { interference, share })
+        })
+    }
+}
+
+/// Returns the face that stores the least energy, the first of equal ones; `None` if it stores none.
+fn least_face_of(bar: &Bar<'_>, polyhedron: &Polyhedron) -> Option<usize> {
+    run_at_level!(least_face(bar: Bar<'a>, polyhedron: Polyhedron) -> Option<usize>)
+}
+
+#[inline(always)]
+fn least_face<S: Simd>(simd: S, bar: &Bar<'_>, polyhedron: &Polyhedron) -> Option<usize> {
+    let ends = [Splat::new(simd, &bar.ends[0]), Splat::new(simd, &bar.ends[1])];
+    let (zero, radius) = (simd.splat(0.0), simd.splat(bar.radius));
+    let blocks = &polyhedron.planes().blocks;
+    let energies = |index: usize| {
+        let block = &blocks[index];
+        let square = |end: &Splat<S>| {
+            let depth = simd.larger(simd.sub(radius, block.heights(simd, end)), zero);
+            simd.mul(depth, depth)
+        };
+        simd.add(square(&ends[0]), square(&ends[1]))
+    };
+    let mut most = simd.splat(f64::NEG_INFINITY);
+    for index in 0..blocks.len() {
+        most = simd.larger(simd.sub(zero, energies(index)), most);
+    }
+    let least = -simd.largest(most);
+    if !(least > 0.0 && least.is_finite()) {
+        return None;
+    }
+    let limit = simd.splat(least / TIE);
+    (0..blocks.len()).find_map(|index| {
+        let faces = simd.bits(simd.at_least(limit, energies(index)));
+        (faces != 0).then(|| index * LANES + faces.trailing_zeros() as usize)
+    })
+}
