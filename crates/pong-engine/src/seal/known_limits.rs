@@ -39,13 +39,20 @@ const LIMITS: &[KnownLimit] = &[
     KnownLimit {
         a: &[Capsule],
         b: &[Polyhedron],
-        may_show: always,
-        text: "an axis sunk below an edge or a corner stores up to 65 % too little energy, in steps of up to 56 %; keep capsules less \
-               deep than their radius",
+        may_show: has_pieces,
+        text: "on a body of several pieces an axis sunk below an edge or a corner stores up to 65 % too little energy, in steps of \
+               up to 56 %; keep capsules less deep than their radius",
     },
     KnownLimit {
         a: &[Capsule],
-        b: &[Polyhedron, Triangle],
+        b: &[Polyhedron],
+        may_show: has_pieces,
+        text: "on a body of several pieces a capsule that lies flat over an edge has half of the stiffness, at the ball or at the \
+               edge by the sign of a tilt; make what lies over edges of several capsules",
+    },
+    KnownLimit {
+        a: &[Capsule],
+        b: &[Triangle],
         may_show: always,
         text: "a capsule that lies flat over an edge has half of the stiffness, at the ball or at the edge by the sign of a tilt and \
                of how the face is cut: steps of up to 0.35·kδ; make what lies over edges of several capsules",
@@ -61,9 +68,9 @@ const LIMITS: &[KnownLimit] = &[
     KnownLimit {
         a: &[LineSegment],
         b: &[Polyhedron],
-        may_show: always,
-        text: "a segment that overhangs its support on both sides has half of the stiffness, at one edge or at the other: the moment \
-               steps between them; make what lies over edges of two segments that meet on the support",
+        may_show: has_pieces,
+        text: "on a body of several pieces a segment that overhangs its support on both sides has half of the stiffness, at one edge \
+               or at the other: the moment steps between them; make what lies over edges of two segments that meet on the support",
     },
     KnownLimit {
         a: &[Point, LineSegment],
@@ -91,6 +98,12 @@ const LIMITS: &[KnownLimit] = &[
 
 fn always(_: &MovableGroup, _: &MovableGroup) -> bool {
     true
+}
+
+/// True if polyhedra of B are joined to one surface, by internal faces or by declaration.
+fn has_pieces(_: &MovableGroup, b: &MovableGroup) -> bool {
+    let is_joint = b.primitives.iter().any(|info| info.kind == Polyhedron && b.is_joint(info.shell));
+    is_joint || elements(b, Polyhedron).any(|index| !b.polyhedra[index].planes().all_active)
 }
 
 fn has_short_pin(a: &MovableGroup, _: &MovableGroup) -> bool {

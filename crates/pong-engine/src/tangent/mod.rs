@@ -5,13 +5,14 @@
 //! |---|---|
 //! | `shape.rs` | radii of curvature of both surfaces at a contact |
 //! | `moves.rs`, `ray.rs` | derivatives of depth, normal and contact point with the relative pose |
-//! | `two_capsules.rs` | the same, and of the weights, where two bodies with two ends yield |
+//! | `two_capsules.rs`, `bars.rs` | the same, and of the weights, where bodies with two ends yield |
 //! | `sharing.rs` | derivatives of the weights of contacts that share a spring |
 //! | `friction.rs`, `contact.rs` | derivatives of the force of one contact |
 //! | `resistance.rs` | derivatives of the couple that resists rolling and spinning |
 //! | `potential.rs` | incremental potential of a step |
 //! | `blocks.rs` | sum over the contacts of two groups; common axes |
 
+mod bars;
 mod blocks;
 mod contact;
 mod friction;
@@ -34,10 +35,12 @@ use crate::frame::{FrameContact, FrameResults};
 use crate::law::{FrictionProps, NormalProps};
 use crate::seal::Direction;
 use crate::state::ContactRole;
+use bars::BarOnSolid;
 use blocks::DirectionSlopes;
 use contact::Moving;
 use moves::{Moves, Touch};
 use nalgebra::RowVector6;
+use pong_geometry::Vec3;
 use pong_geometry::extension::PrimitiveRef;
 use pong_geometry::interference::two_capsules::TwoAxes;
 use pong_geometry::primitive::{PrimitiveKind, Ray};
@@ -231,12 +234,15 @@ impl<'a> Frame<'a> {
         {
             return unknown(Missing::HostLaw);
         }
-        let known = match self.two_axes(contact) {
-            Some((axes, radius)) => {
-                let at_end = moves_at_end(&axes, radius, contact.found.key.end as usize);
-                at_end.map(|MovesAtEnd { moves, pressing, weight }| (moves, pressing, weight))
-            }
-            None => self.moves(contact).map(|moves| (moves, moves.depth, RowVector6::zeros())),
+        let of_bar = |at_end: Option<MovesAtEnd>| {
+            at_end.map(|MovesAtEnd { moves, pressing, weight }| (moves, pressing, weight))
+        };
+        let known = if let Some((axes, radius)) = self.two_axes(contact) {
+            of_bar(moves_at_end(&axes, radius, contact.found.key.end as usize))
+        } else if let Some(bar) = self.bar_on_solid(contact) {
+            of_bar(bar.moves_of(&contact.found))
+        } else {
+            self.moves(contact).map(|moves| (moves, moves.depth, RowVector6::zeros()))
         };
         let Some((moves, pressing, weight)) = known else { return unknown(Missing::Shapes) };
         Ok(Moving {
@@ -251,19 +257,36 @@ impl<'a> Frame<'a> {
         })
     }
 
-    /// Axes of a segment or a capsule and a capsule, with the radius of A; `None` for other kinds.
-    fn two_axes(&self, contact: &FrameContact) -> Option<(TwoAxes, f64)> {
-        let (context, found) = (self.context, &contact.found);
-        let element_a = context.body_a.element(self.kind_a(contact), found.element_a);
+    /// Ends of a segment or a capsule A in B's frame, with its radius; `None` for other kinds.
+    fn bar(&self, contact: &FrameContact) -> Option<([Vec3; 2], f64)> {
+        let element_a = self.context.body_a.element(self.kind_a(contact), contact.found.element_a);
         let (ends, radius) = match element_a {
             PrimitiveRef::LineSegment(segment) => (segment.ends, 0.0),
             PrimitiveRef::Capsule(capsule) => (capsule.ends, capsule.radius),
             _ => return None,
         };
+        Some((ends.map(|end| self.context.motion.x_ba.point(&end)), radius))
+    }
+
+    /// A segment or a capsule and a polyhedron of one piece; `None` for other kinds.
+    fn bar_on_solid(&self, contact: &FrameContact) -> Option<BarOnSolid<'a>> {
+        let found = &contact.found;
+        let (ends, radius) = self.bar(contact)?;
+        let PrimitiveRef::Polyhedron(solid) = self.context.body_b.element(found.kind_b, found.element_b)
+        else {
+            return None;
+        };
+        let is_piece = !solid.planes().all_active || self.context.body_b.is_joint(found.key.shell_b);
+        (!is_piece).then_some(BarOnSolid { ends, radius, solid })
+    }
+
+    /// Axes of a segment or a capsule and a capsule, with the radius of A; `None` for other kinds.
+    fn two_axes(&self, contact: &FrameContact) -> Option<(TwoAxes, f64)> {
+        let (context, found) = (self.context, &contact.found);
+        let (ends, radius) = self.bar(contact)?;
         let PrimitiveRef::Capsule(b) = context.body_b.element(found.kind_b, found.element_b) else {
             return None;
         };
-        let ends = ends.map(|end| context.motion.x_ba.point(&end));
         Some((TwoAxes::new(&ends, radius, b), radius))
     }
 
@@ -284,7 +307,8 @@ impl<'a> Frame<'a> {
             return self.moves_of_ray(&ray.carried(x_ba), found);
         }
         let on_edge = !found.feature.is_face();
-        if self.is_bar_between_ends(kind_a, found) {
+        // A segment that leaves a piece through a face may push along another line than that of the edge.
+        if on_edge && (kind_a, found.kind_b) == (PrimitiveKind::LineSegment, PrimitiveKind::Polyhedron) {
             return None;
         }
         let of_a = AtContact::new(element_a, x_ab.point(&found.deepest_b), -x_ab.vector(&normal));
@@ -293,23 +317,6 @@ impl<'a> Frame<'a> {
         // On a flat face the face gives the normal; elsewhere the end of a wall does not turn it like a rim.
         let is_unique = matches!(shape_b, Shape::Flat) || !of_a.is_end_of_wall();
         if is_unique { touch.moves(&shape_a, &shape_b) } else { None }
-    }
-
-    /// True where the load of a segment or a capsule on a polyhedron moves along its axis, with the normal or the weights:
-    /// unless it is at an end, or both ends are over one face.
-    fn is_bar_between_ends(&self, kind_a: PrimitiveKind, found: &ContactCandidate) -> bool {
-        if found.kind_b != PrimitiveKind::Polyhedron || found.shares {
-            return false;
-        }
-        let ends = match self.context.body_a.element(kind_a, found.element_a) {
-            PrimitiveRef::LineSegment(segment) => segment.ends,
-            PrimitiveRef::Capsule(capsule) => capsule.ends,
-            _ => return false,
-        };
-        let [own, other] = [found.key.end, 1 - found.key.end].map(|end| ends[end as usize]);
-        let along = self.context.motion.x_ba.vector(&(other - own));
-        let is_at_end = found.depth <= found.normal_b.dot(&along);
-        found.weight != 1.0 || !(found.feature.is_face() || is_at_end)
     }
 
     fn moves_of_ray(&self, ray: &Ray, found: &ContactCandidate) -> Option<Moves> {

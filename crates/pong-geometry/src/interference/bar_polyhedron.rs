@@ -190,7 +190,8 @@ impl<'a> Bar<'a> {
                     super::FeatureKind::Face => 0.0,
                     super::FeatureKind::Edge => {
                         let edge = &self.polyhedron.edges[feature.index()].direction;
-                        self.along.norm_squared() - edge.dot(&self.along).powi(2) - lean * lean
+                        let beside = edge.dot(&self.along);
+                        self.along.norm_squared() - beside * beside - lean * lean
                     }
                     super::FeatureKind::Vertex => self.along.norm_squared() - lean * lean,
                 };
@@ -375,7 +376,11 @@ impl<'a> Bar<'a> {
     fn contacts(&self, load: &Load, [from, to]: [f64; 2]) -> OverlapContacts {
         let lean = load.normal_b.dot(&self.along);
         let overlap = [from.min(load.at), to.max(load.at)];
-        let levers = lever_shares(&overlap, load.at);
+        let levers = match load.at {
+            -0.5 => [1.0, 0.0],
+            0.5 => [0.0, 1.0],
+            at => lever_shares(&overlap, at),
+        };
         [0, 1].map(|end| {
             let at = overlap[end];
             let depth = load.depth - lean * (at - load.at);

@@ -85,8 +85,12 @@ pub fn line_segment_piece(segment: &LineSegment, polyhedron: &Polyhedron) -> Pie
 #[inline]
 pub(super) fn part_in_solid(segment: &LineSegment, polyhedron: &Polyhedron) -> Option<[f64; 2]> {
     let ends = match polyhedron.planes().blocks.len() {
-        ..=FEW => run_at_level!(inside_few(segment: LineSegment, polyhedron: Polyhedron) -> Option<[InsideEnd; 2]>),
-        _ => run_at_level!(inside_many(segment: LineSegment, polyhedron: Polyhedron) -> Option<[InsideEnd; 2]>),
+        ..=FEW => {
+            run_at_level!(inside_few(segment: LineSegment, polyhedron: Polyhedron) -> Option<[InsideEnd; 2]>)
+        }
+        _ => {
+            run_at_level!(inside_many(segment: LineSegment, polyhedron: Polyhedron) -> Option<[InsideEnd; 2]>)
+        }
     };
     ends.map(|ends| ends.map(|end| end.at))
 }

@@ -152,6 +152,10 @@ fn the_wrench_is_minus_the_derivative_of_the_energy() {
                 let (shift, turn) = if k < 3 { (along * by, 0.0 * along) } else { (0.0 * along, along * by) };
                 energy(&moved(&a, &shift, &turn), b)
             };
+            let [less, here, more] = [-2.0 * STEP, 0.0, 2.0 * STEP].map(at);
+            if (more - 2.0 * here + less).abs() > 1e-3 * force * STEP {
+                continue;
+            }
             let slope = (8.0 * (at(STEP) - at(-STEP)) - (at(2.0 * STEP) - at(-2.0 * STEP))) / (12.0 * STEP);
             let part = if k < 3 { found.force[k] } else { found.moment[k - 3] };
             let off = (part + slope).abs() / force;
@@ -190,12 +194,11 @@ fn known_cases_carry_what_the_rule_says() {
     let depth = 1e-3;
     let b = cuboid(Vec3::new(-0.5, -0.5, -0.5), Vec3::new(0.5, 0.5, 0.5));
     for radius in [0.0, 0.1] {
-        let bar = |ends: [[f64; 3]; 2]| capsule(ends.map(|[x, y, z]| [x, y, z + 0.5 + radius - depth]), radius);
+        let bar =
+            |ends: [[f64; 3]; 2]| capsule(ends.map(|[x, y, z]| [x, y, z + 0.5 + radius - depth]), radius);
         let flat = |from: f64, to: f64| bar([[from, 0.0, 0.0], [to, 0.0, 0.0]]);
         // On the face with both ends, overhanging one side, both sides, and with the middle beyond the edge.
-        for (from, to, force) in
-            [(-0.3, 0.4, 1.0), (-0.3, 1.2, 1.0), (-0.9, 1.2, 1.0), (-3.0, 3.0, 1.0)]
-        {
+        for (from, to, force) in [(-0.3, 0.4, 1.0), (-0.3, 1.2, 1.0), (-0.9, 1.2, 1.0), (-3.0, 3.0, 1.0)] {
             let found = wrench(&flat(from, to), &b);
             assert_near(found.force.z, force * depth, 1e-12);
             assert!((found.moment.y + force * depth * 0.5 * (from + to)).abs() < 1e-12 * depth, "{found:?}");

@@ -300,7 +300,15 @@ impl Cut<'_> {
             }
             Shape::Round(part) => {
                 let ends = part.ends.map(|end| at(&end));
-                is_passed_by(self.whole, &ends, self.slack)
+                // On a whole solid both ends of a capsule yield: pieces know this of an end that leaves by a face.
+                let mut by_its_end = touches.all(|touch| {
+                    let out = back * touch.normal;
+                    let foot = |end: &Vec3| end - out * (part.radii[0] - touch.depth);
+                    let is_foot = |end: &Vec3| is_inside(self.whole, &foot(end), self.slack);
+                    touch.weight == 1.0 && ends.get(touch.end as usize).is_some_and(is_foot)
+                });
+                by_its_end |= part.kind != RoundKind::Capsule;
+                by_its_end && is_passed_by(self.whole, &ends, self.slack)
             }
             Shape::Plane { .. } | Shape::Polyhedron(_) | Shape::Mesh(_) => true,
         }
