@@ -13,11 +13,11 @@
 use super::capsule_polyhedron::{CapsuleAtPiece, each_edge_near};
 use super::line_segment_polyhedron::part_in_solid;
 use super::round_surface::ROUNDING;
-use super::sphere_polyhedron::sphere_outside_polyhedron;
+use super::sphere_polyhedron::{Beside, sphere_beside_polyhedron};
 use super::two_capsules::{OverlapContacts, lever_shares, zero_of_rising};
 use super::two_ended_round::EndContact;
-use super::{Feature, Interference};
-use crate::primitive::{Capsule, LineSegment, Polyhedron, Sphere};
+use super::{Feature, FeatureKind, Interference};
+use crate::primitive::{Capsule, LineSegment, PlaneBlock, Polyhedron, Sphere};
 use crate::simd::{LANES, Simd, Splat, run_at_level};
 use crate::{Vec3, divisor};
 
@@ -91,6 +91,19 @@ enum Outside {
     SunkIn,
 }
 
+/// Axis of a bar as seen along an edge or from a vertex.
+struct Line {
+    /// Square of its length, m².
+    square: f64,
+    /// Place nearest to the edge or vertex; it may be beyond the ends.
+    foot: f64,
+    /// Square of the distance there, m².
+    height: f64,
+}
+
+/// Factor on a distance, far above rounding.
+const BEYOND_ROUNDING: f64 = 1.0 + 1e-9;
+
 /// Energies within this factor count as equal, so that rounding does not choose between equal faces.
 const TIE: f64 = 1.0 - 1e-12;
 
@@ -120,13 +133,18 @@ impl<'a> Bar<'a> {
 
     /// Returns the point of the solid nearest to a place of the axis, if it is nearer than `reach` (m).
     fn nearest(&self, at: f64, reach: f64) -> Nearest {
-        let center = self.place(at);
-        if self.polyhedron.contains(&center) {
-            return Nearest::Inside;
+        match sphere_beside_polyhedron(&Sphere { center: self.place(at), radius: reach }, self.polyhedron) {
+            Beside::Inside => Nearest::Inside,
+            Beside::At(found) => Nearest::At(reach - found.depth, found.normal_b, found.feature),
+            Beside::Far => Nearest::Far,
         }
-        match sphere_outside_polyhedron(&Sphere { center, radius: reach }, self.polyhedron) {
-            Some(found) => Nearest::At(reach - found.depth, found.normal_b, found.feature),
-            None => Nearest::Far,
+    }
+
+    /// Returns the same; a search within the radius is fast, and most often enough.
+    fn nearest_soon(&self, at: f64, reach: f64) -> Nearest {
+        match self.nearest(at, self.radius) {
+            Nearest::Far if reach > self.radius => self.nearest(at, reach),
+            near => near,
         }
     }
 
@@ -154,51 +172,100 @@ impl<'a> Bar<'a> {
             let depths = [self.radius - one, self.radius - other];
             return Outside::Load(self.on_plane(depths, normal, feature));
         }
-        let start = match at_ends {
-            [Nearest::At(..), Nearest::Far] => -0.5,
-            [Nearest::Far, Nearest::At(..)] => 0.5,
-            _ => 0.0,
+        let (start, reach) = match at_ends {
+            [Nearest::At(..), Nearest::Far] => (-0.5, 0.0),
+            [Nearest::Far, Nearest::At(..)] => (0.5, 0.0),
+            _ => (0.0, 0.5),
         };
-        let reach = self.radius + self.along.norm();
-        let (at, found) = zero_of_rising(start, |at| {
-            let near = self.nearest(at, reach);
-            let (value, slope) = self.slope(at, &near);
-            (value, slope, (at, near))
-        });
-        match found {
-            Nearest::At(distance, ..) if distance >= self.radius => Outside::Apart,
-            Nearest::At(distance, normal, feature) if distance > self.rounding() => {
-                Outside::Load(load(at, distance, normal, feature))
+        match self.search(start, (self.radius + reach * self.along.norm()) * BEYOND_ROUNDING) {
+            (at, Nearest::At(distance, normal, feature)) if distance < self.radius => {
+                match distance > self.rounding() {
+                    true => Outside::Load(load(at, distance, normal, feature)),
+                    false => Outside::SunkIn,
+                }
             }
-            Nearest::Far => Outside::Apart,
-            _ => Outside::SunkIn,
+            (_, Nearest::Inside) => Outside::SunkIn,
+            _ => Outside::Apart,
         }
     }
 
-    /// Returns the derivative of −ln(δ/√W) by the place, times δ, and the derivative of this where it is zero, m.
-    fn slope(&self, at: f64, near: &Nearest) -> (f64, f64) {
-        let spread = spread(at);
-        let pull = |depth: f64| 4.0 * depth.max(0.0) / spread;
-        match near {
-            // Nothing touches: the search may end anywhere.
-            Nearest::Far => (0.0, 1.0),
-            Nearest::Inside => (pull(self.radius) * at, pull(self.radius) / spread),
-            Nearest::At(distance, normal, feature) => {
-                let lean = normal.dot(&self.along);
-                let depth = self.radius - distance;
-                let bends = match feature.kind() {
-                    super::FeatureKind::Face => 0.0,
-                    super::FeatureKind::Edge => {
-                        let edge = &self.polyhedron.edges[feature.index()].direction;
-                        let beside = edge.dot(&self.along);
-                        self.along.norm_squared() - beside * beside - lean * lean
-                    }
-                    super::FeatureKind::Vertex => self.along.norm_squared() - lean * lean,
-                };
-                let bend = bends.max(0.0) / distance.max(f64::EPSILON * self.radius);
-                (lean + pull(depth) * at, bend + pull(depth) / spread)
+    /// Searches the place of most δ²/W, or of least distance if nothing touches: at each place, for the feature that is
+    /// nearest there, the place that would be best if there were no other, between places that are known to be on
+    /// either side. `reach` (m) is enough for the first place if anything touches.
+    fn search(&self, start: f64, reach: f64) -> (f64, Nearest) {
+        const STEPS: usize = 80;
+        let (mut low, mut high) = (-0.5, 0.5);
+        let (mut at, mut reach) = (start, reach);
+        // Feature for which the place is the best, and length of the last step.
+        let (mut asked, mut last) = (None, 1.0);
+        for _ in 1..STEPS {
+            let near = self.nearest_soon(at, reach);
+            let (value, next, feature, away) = match near {
+                Nearest::Far => return (at, near),
+                Nearest::Inside => (at, 0.0, None, 0.0),
+                Nearest::At(distance, normal, feature) => {
+                    let pull = 4.0 * (self.radius - distance).max(0.0) / spread(at);
+                    let value = normal.dot(&self.along) + pull * at;
+                    let next = if asked == Some(feature) { at } else { self.best_for(feature, at) };
+                    (value, next, Some(feature), distance)
+                }
+            };
+            let is_at_end = (at == -0.5 && value > 0.0) || (at == 0.5 && value < 0.0);
+            if value == 0.0 || next == at || is_at_end || high - low <= 2.0 * f64::EPSILON {
+                return (at, near);
             }
+            if value > 0.0 {
+                high = at
+            } else {
+                low = at
+            }
+            let is_inside = low <= next && next <= high && next != low && next != high;
+            let is_end = (next == 0.5 && high == 0.5) || (next == -0.5 && low == -0.5);
+            let takes = (is_inside && (next - at).abs() <= 0.5 * last) || is_end;
+            (asked, last) =
+                (feature.filter(|_| takes), if takes { (next - at).abs() } else { 0.5 * (high - low) });
+            let next = if takes { next } else { 0.5 * (low + high) };
+            reach = (away + (next - at).abs() * self.along.norm()) * BEYOND_ROUNDING + self.rounding();
+            at = next;
         }
+        (at, self.nearest(at, reach))
+    }
+
+    /// Returns the place of most δ²/W for one feature alone, a plane, a line or a point, near `from`.
+    fn best_for(&self, feature: Feature, from: f64) -> f64 {
+        let Some(Line { square, foot, height }) = self.line(feature) else {
+            let depths = self.depths_below(feature.index());
+            if depths[0] <= 0.0 && depths[1] <= 0.0 {
+                return if depths[0] > depths[1] { -0.5 } else { 0.5 };
+            }
+            return self.on_plane(depths, Vec3::zeros(), feature).at;
+        };
+        zero_of_rising(from, |at| {
+            let beyond = at - foot;
+            let distance = (height + square * beyond * beyond).sqrt();
+            let lean = square * beyond / divisor(distance);
+            let (spread, depth) = (spread(at), (self.radius - distance).max(0.0));
+            let bend = (square - lean * lean).max(0.0) / divisor(distance);
+            (lean + 4.0 * depth * at / spread, bend + 4.0 * depth / (spread * spread), at)
+        })
+    }
+
+    /// Returns the axis as seen along an edge or from a vertex; `None` for a face.
+    fn line(&self, feature: Feature) -> Option<Line> {
+        let (place, across) = match feature.kind() {
+            FeatureKind::Face => return None,
+            FeatureKind::Edge => {
+                let edge = &self.polyhedron.edges[feature.index()];
+                (edge.vertices[0], Some(edge.direction))
+            }
+            FeatureKind::Vertex => (feature.index() as u32, None),
+        };
+        let flat = |v: Vec3| across.map_or(v, |edge| v - edge * edge.dot(&v));
+        let along = flat(self.along);
+        let from_middle = flat(self.polyhedron.vertices[place as usize].position - self.place(0.0));
+        let square = along.norm_squared();
+        let foot = from_middle.dot(&along) / divisor(square);
+        Some(Line { square, foot, height: (from_middle - along * foot).norm_squared() })
     }
 
     /// Returns the load on a plane below which the ends have these depths, of which one at least is positive.
@@ -334,40 +401,65 @@ impl<'a> Bar<'a> {
 
     /// Returns the part of the axis that is less than the radius away from the solid, as places from −½ to ½.
     fn overlap(&self, load: &Load, at_ends: &[Nearest; 2]) -> [f64; 2] {
-        let reach = self.radius + self.along.norm();
         [0, 1].map(|end| {
             let tip = [-0.5, 0.5][end];
             match at_ends[end] {
                 Nearest::Inside => tip,
                 Nearest::At(distance, ..) if distance < self.radius => tip,
                 _ if load.at == tip || load.at == -tip => load.at,
-                _ => self.leaves(load.at, tip, reach),
+                _ => self.leaves(load, tip),
             }
         })
     }
 
-    /// Returns the place where the axis comes within the radius of the solid on its way from an end to the load, by
-    /// Newton's steps: the distance is convex, so they come from one side.
-    fn leaves(&self, load: f64, tip: f64, reach: f64) -> f64 {
-        const STEPS: usize = 40;
-        let mut at = tip;
-        for _ in 0..STEPS {
-            let Nearest::At(distance, normal, _) = self.nearest(at, reach) else { break };
-            let rate = normal.dot(&self.along);
-            let next = at - (distance - self.radius) / divisor(rate);
-            if distance <= self.radius || rate * tip <= 0.0 {
-                break;
+    /// Returns the place where the axis leaves the reach of the solid on its way from the load to an end: for the feature
+    /// that is nearest there, the place at which it is the radius away, until this is nearest at that place.
+    fn leaves(&self, load: &Load, tip: f64) -> f64 {
+        const STEPS: usize = 60;
+        const ENOUGH: f64 = 1e-12;
+        // Places that are nearer than the radius, and farther.
+        let (mut inner, mut outer) = (load.at, tip);
+        let (mut asked, mut next) = (load.feature, self.leaves_feature(load.feature, tip));
+        for step in 0..STEPS {
+            let takes = (next - inner) * tip > 0.0 && (outer - next) * tip > 0.0 && step < 12;
+            let at = if takes { next } else { 0.5 * (inner + outer) };
+            // At the place that is searched the distance is the radius; from others the next one is half way.
+            let near = self.nearest(at, self.radius * BEYOND_ROUNDING + self.rounding());
+            let is_inner = match near {
+                Nearest::At(distance, _, feature) => {
+                    if takes && feature == asked {
+                        return at;
+                    }
+                    (asked, next) = (feature, self.leaves_feature(feature, tip));
+                    distance < self.radius
+                }
+                Nearest::Inside => true,
+                Nearest::Far => false,
+            };
+            if is_inner {
+                inner = at
+            } else {
+                outer = at
             }
-            if (next - load) * tip <= 0.0 {
-                return load;
-            }
-            let step = (next - at).abs();
-            at = next;
-            if step <= 4.0 * f64::EPSILON {
+            if (outer - inner).abs() <= ENOUGH {
                 break;
             }
         }
-        at
+        0.5 * (inner + outer)
+    }
+
+    /// Returns the place at which a feature alone is the radius away, towards an end.
+    fn leaves_feature(&self, feature: Feature, tip: f64) -> f64 {
+        match self.line(feature) {
+            Some(Line { square, foot, height }) => {
+                let half = (self.radius * self.radius - height).max(0.0) / divisor(square);
+                foot + half.sqrt().copysign(tip)
+            }
+            None => {
+                let depths = self.depths_below(feature.index());
+                depths[0] / divisor(depths[0] - depths[1]) - 0.5
+            }
+        }
     }
 
     /// Returns the contacts that carry a load, at the two ends of the overlap by the lever rule, each as deep as its
@@ -411,27 +503,30 @@ fn least_face_of(bar: &Bar<'_>, polyhedron: &Polyhedron) -> Option<usize> {
 #[inline(always)]
 fn least_face<S: Simd>(simd: S, bar: &Bar<'_>, polyhedron: &Polyhedron) -> Option<usize> {
     let ends = [Splat::new(simd, &bar.ends[0]), Splat::new(simd, &bar.ends[1])];
-    let (zero, radius) = (simd.splat(0.0), simd.splat(bar.radius));
-    let blocks = &polyhedron.planes().blocks;
-    let energies = |index: usize| {
-        let block = &blocks[index];
-        let square = |end: &Splat<S>| {
-            let depth = simd.larger(simd.sub(radius, block.heights(simd, end)), zero);
-            simd.mul(depth, depth)
-        };
-        simd.add(square(&ends[0]), square(&ends[1]))
-    };
+    let radius = simd.splat(bar.radius);
     let mut most = simd.splat(f64::NEG_INFINITY);
-    for index in 0..blocks.len() {
-        most = simd.larger(simd.sub(zero, energies(index)), most);
+    for block in &polyhedron.planes().blocks {
+        most = simd.larger(simd.sub(simd.splat(0.0), energies(simd, block, &ends, radius)), most);
     }
     let least = -simd.largest(most);
     if !(least > 0.0 && least.is_finite()) {
         return None;
     }
     let limit = simd.splat(least / TIE);
-    (0..blocks.len()).find_map(|index| {
-        let faces = simd.bits(simd.at_least(limit, energies(index)));
-        (faces != 0).then(|| index * LANES + faces.trailing_zeros() as usize)
-    })
+    for (index, block) in polyhedron.planes().blocks.iter().enumerate() {
+        let faces = simd.bits(simd.at_least(limit, energies(simd, block, &ends, radius)));
+        if faces != 0 {
+            return Some(index * LANES + faces.trailing_zeros() as usize);
+        }
+    }
+    None
+}
+
+/// Returns e₀² + e₁² of eight faces, m².
+#[inline(always)]
+fn energies<S: Simd>(simd: S, block: &PlaneBlock, ends: &[Splat<S>; 2], radius: S::Eight) -> S::Eight {
+    let zero = simd.splat(0.0);
+    let first = simd.larger(simd.sub(radius, block.heights(simd, &ends[0])), zero);
+    let second = simd.larger(simd.sub(radius, block.heights(simd, &ends[1])), zero);
+    simd.add(simd.mul(first, first), simd.mul(second, second))
 }
