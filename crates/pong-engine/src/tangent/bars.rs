@@ -17,7 +17,7 @@ use pong_geometry::{Mat3, Vec3};
 
 /// A segment or a capsule on a convex solid, in the solid's frame.
 pub(super) struct BarOnSolid<'a> {
-    pub ends: [Vec3; 2],
+    pub ends_b: [Vec3; 2],
     pub radius: f64,
     pub solid: &'a Polyhedron,
 }
@@ -27,8 +27,8 @@ impl BarOnSolid<'_> {
     /// pushes, and where the remembered side of entry pushes instead of the nearest one.
     pub fn moves_of(&self, found: &ContactCandidate) -> Option<MovesAtEnd> {
         let contacts = match self.radius > 0.0 {
-            true => capsule_solid(&Capsule { ends: self.ends, radius: self.radius }, self.solid, &[]),
-            false => segment_solid(&LineSegment { ends: self.ends }, self.solid),
+            true => capsule_solid(&Capsule { ends: self.ends_b, radius: self.radius }, self.solid, &[]),
+            false => segment_solid(&LineSegment { ends: self.ends_b }, self.solid),
         };
         let end = found.key.end as usize;
         let contact =
@@ -42,7 +42,7 @@ impl BarOnSolid<'_> {
         /// Distance of the axis from a feature, relative to the depth, below which most digits of the normal are rounding.
         const CROSSING: f64 = 1e-9;
         let found = &contact.interference;
-        let (normal, along) = (found.normal_b, self.ends[1] - self.ends[0]);
+        let (normal, along) = (found.normal_b, self.ends_b[1] - self.ends_b[0]);
         let lean = normal.dot(&along);
         let place = self.place_of(&found.deepest_b, &normal);
         // Depths of the ends and of the load below the plane.
@@ -101,12 +101,12 @@ impl BarOnSolid<'_> {
     }
 
     fn at(&self, place: f64) -> Vec3 {
-        0.5 * (self.ends[0] + self.ends[1]) + (self.ends[1] - self.ends[0]) * place
+        0.5 * (self.ends_b[0] + self.ends_b[1]) + (self.ends_b[1] - self.ends_b[0]) * place
     }
 
     /// Returns the place on the axis, −½…½, of a deepest point.
     fn place_of(&self, deepest: &Vec3, normal: &Vec3) -> f64 {
-        let along = self.ends[1] - self.ends[0];
+        let along = self.ends_b[1] - self.ends_b[0];
         let at = along.dot(&(deepest + normal * self.radius - self.at(0.0))) / along.norm_squared();
         // At an end to rounding.
         if at.abs() > 0.5 - 1e-12 { 0.5_f64.copysign(at) } else { at }
@@ -141,7 +141,7 @@ impl BarOnSolid<'_> {
             return *goes;
         }
         let center = self.at(place);
-        let along = self.ends[1] - self.ends[0];
+        let along = self.ends_b[1] - self.ends_b[0];
         let away = match self.radius > 0.0 {
             true => {
                 let sphere = Sphere { center, radius: 2.0 * self.radius };

@@ -277,7 +277,7 @@ impl<'a> Frame<'a> {
             return None;
         };
         let is_piece = !solid.planes().all_active || self.context.body_b.is_joint(found.key.shell_b);
-        (!is_piece).then_some(BarOnSolid { ends, radius, solid })
+        (!is_piece).then_some(BarOnSolid { ends_b: ends, radius, solid })
     }
 
     /// Axes of a segment or a capsule and a capsule, with the radius of A; `None` for other kinds.
