@@ -12,7 +12,7 @@
 //! well. For one normal the best offset is a root of a rising piecewise linear function. The normal is found by
 //! Newton's method on the unit sphere.
 
-use super::least_translation::{lattice, least_of_many};
+use super::least_translation::{Local, lattice, least_of_many, newton};
 use super::round_surface::of_frustum;
 use super::two_ended_round::EndContact;
 use super::{Feature, Interference};
@@ -188,44 +188,12 @@ impl Plate {
     fn descend(&self, start: &Vec3, steps: usize) -> Vec3 {
         /// Longest step, rad.
         const FARTHEST: f64 = 0.3;
-        let (mut n, mut damping) = (*start, 0.0);
-        let mut here = self.along(&n);
-        let (mut slope, mut bend) = here.derivatives(&n);
-        for _ in 0..steps {
-            let size = here.places.iter().flatten().map(|place| place.place.amax()).fold(0.0, f64::max);
-            let force = here.energy.sqrt();
-            if here.energy <= 0.0 || slope.norm() <= f64::EPSILON * force * size {
-                break;
-            }
-            let u = any_perpendicular(&n);
-            let v = n.cross(&u);
-            let (of_u, of_v) = (bend * u, bend * v);
-            let (uu, uv, vv) = (u.dot(&of_u), u.dot(&of_v), v.dot(&of_v));
-            let least = 0.5 * (uu + vv) - (0.25 * (uu - vv) * (uu - vv) + uv * uv).sqrt();
-            let floor = 1e-6 * force * size;
-            let raise = damping + if least < floor { floor - least } else { 0.0 };
-            let (uu, vv) = (uu + raise, vv + raise);
-            let (along_u, along_v) = (u.dot(&slope), v.dot(&slope));
-            let determinant = (uu * vv - uv * uv).max(f64::MIN_POSITIVE);
-            let step = u * ((uv * along_v - vv * along_u) / determinant)
-                + v * ((uv * along_u - uu * along_v) / determinant);
-            let length = step.norm();
-            let step = if length > FARTHEST { step * (FARTHEST / length) } else { step };
-            let next = (n + step).normalize();
-            let there = self.along(&next);
-            let (slope_there, bend_there) = there.derivatives(&next);
-            let noise = 8.0 * f64::EPSILON * force * size;
-            let flatter = there.energy <= here.energy + noise && slope_there.norm() < slope.norm();
-            if there.energy < here.energy - noise || flatter {
-                (n, here, slope, bend) = (next, there, slope_there, bend_there);
-                damping *= 0.1;
-            } else if length <= f64::EPSILON {
-                break;
-            } else {
-                damping = (4.0 * damping).max(0.1 * (uu.abs() + vv.abs()));
-            }
-        }
-        n
+        newton(start, steps, FARTHEST, |n| {
+            let here = self.along(n);
+            let reach = here.places.iter().flatten().map(|place| place.place.amax()).fold(0.0, f64::max);
+            let (slope, bend) = here.derivatives(n);
+            Local { value: here.energy, slope, bend, less: 0.0, size: here.energy.sqrt() * reach }
+        })
     }
 }
 
