@@ -16,6 +16,7 @@ use super::least_translation::{Local, SAME, lattice, least_of_many, newton};
 use super::round_surface::of_frustum;
 use super::two_ended_round::EndContact;
 use super::{Feature, Interference};
+use crate::distance::Solid;
 use crate::primitive::Frustum;
 use crate::{Mat3, Vec3, any_perpendicular};
 
@@ -30,6 +31,10 @@ pub fn two_frusta(a: &Frustum, b: &Frustum) -> PlateContacts {
     let Some(normal) = between.best_normal([a, b]) else { return [None; 4] };
     let at = between.along(&normal);
     if at.energy <= 0.0 {
+        return [None; 4];
+    }
+    if !at.meet([a, b], &center) && Solid::frustum(a).to_within(&Solid::frustum(b), 0.0).is_none() {
+        // A plane separates the two, and the search has missed it.
         return [None; 4];
     }
     // U = ½k·Σ(force/k)·depth.
@@ -200,6 +205,20 @@ impl Plate {
 }
 
 impl Along {
+    /// Returns `true` if the middle of the load on one body surely lies in the other. `center` is the origin of the search.
+    fn meet(&self, [a, b]: [&Frustum; 2], center: &Vec3) -> bool {
+        /// Depth, relative to the length of a body, that does not come from rounding.
+        const SURELY: f64 = 1e-12;
+        let middle = |places: &[Place; 4]| {
+            let load: f64 = places.iter().map(|place| place.pressed).sum();
+            let moment = places.iter().map(|place| place.place * place.pressed).sum::<Vec3>();
+            moment / load.max(f64::MIN_POSITIVE) + center
+        };
+        let [of_a, of_b] = self.places.each_ref().map(middle);
+        of_frustum(&of_a, b).distance < -SURELY * b.length
+            || of_frustum(&of_b, a).distance < -SURELY * a.length
+    }
+
     /// Returns the derivative of half the `energy` when the normal turns, in the tangent plane, and the second derivative.
     fn derivatives(&self, n: &Vec3) -> (Vec3, Mat3) {
         let (mut slope, mut bend, mut mixed, mut count) = (Vec3::zeros(), Mat3::zeros(), Vec3::zeros(), 0.0);
