@@ -159,7 +159,7 @@ impl Plate {
         /// Cosine above which two of the likely normals lead to one minimum: two minima may be 4° apart.
         const NEAR: f64 = 0.9995;
         /// Steps of a descent.
-        const FEW: usize = 12;
+        const FEW: usize = 24;
         const MANY: usize = 80;
         let first =
             [0.5, 0.0, 1.0].map(|at| of_frustum(&(a.ends[0] + (a.ends[1] - a.ends[0]) * at), b).normal_b);
