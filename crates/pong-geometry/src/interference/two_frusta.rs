@@ -209,14 +209,13 @@ impl Along {
     fn meet(&self, [a, b]: [&Frustum; 2], center: &Vec3) -> bool {
         /// Depth, relative to the length of a body, that does not come from rounding.
         const SURELY: f64 = 1e-12;
-        let middle = |places: &[Place; 4]| {
+        let lies_in = |places: &[Place; 4], other: &Frustum| {
             let load: f64 = places.iter().map(|place| place.pressed).sum();
             let moment = places.iter().map(|place| place.place * place.pressed).sum::<Vec3>();
-            moment / load.max(f64::MIN_POSITIVE) + center
+            let middle = moment / load.max(f64::MIN_POSITIVE) + center;
+            load > 0.0 && of_frustum(&middle, other).distance < -SURELY * other.length
         };
-        let [of_a, of_b] = self.places.each_ref().map(middle);
-        of_frustum(&of_a, b).distance < -SURELY * b.length
-            || of_frustum(&of_b, a).distance < -SURELY * a.length
+        lies_in(&self.places[0], b) || lies_in(&self.places[1], a)
     }
 
     /// Returns the derivative of half the `energy` when the normal turns, in the tangent plane, and the second derivative.
