@@ -84,7 +84,7 @@ pub(super) fn descend(start: &Vec3, along: impl Fn(&Vec3) -> Along) -> Vec3 {
     newton(start, STEPS, [f64::EPSILON, FARTHEST], |normal| {
         let Along { overlap, farthest_b, radii } = along(normal);
         let size = farthest_b.norm() + radii.amax();
-        Local { value: overlap, slope: farthest_b - normal * overlap, bend: radii, less: overlap, size }
+        Local { value: overlap, slope_b: farthest_b - normal * overlap, bend: radii, less: overlap, size }
     })
 }
 
@@ -93,11 +93,11 @@ pub(super) fn descend(start: &Vec3, along: impl Fn(&Vec3) -> Along) -> Vec3 {
 pub(super) struct Local {
     pub value: f64,
     /// First derivative, in the tangent plane.
-    pub slope: Vec3,
+    pub slope_b: Vec3,
     /// Second derivative in a direction u of the tangent plane: u·(bend·u) − less.
     pub bend: Mat3,
     pub less: f64,
-    /// Size of the terms of which `slope` and `bend` are sums; it tells how large rounding is.
+    /// Size of the terms of which `slope_b` and `bend` are sums; it tells how large rounding is.
     pub size: f64,
 }
 
@@ -110,8 +110,8 @@ pub(super) fn newton(start: &Vec3, steps: usize, lengths: [f64; 2], at: impl Fn(
     let (mut normal, mut damping) = (*start, 0.0);
     let mut here = at(&normal);
     for _ in 0..steps {
-        let Local { value, slope, bend, less, size } = here;
-        if value <= 0.0 || slope.norm() <= f64::EPSILON * size {
+        let Local { value, slope_b, bend, less, size } = here;
+        if value <= 0.0 || slope_b.norm() <= f64::EPSILON * size {
             break;
         }
         let u = any_perpendicular(&normal);
@@ -123,7 +123,7 @@ pub(super) fn newton(start: &Vec3, steps: usize, lengths: [f64; 2], at: impl Fn(
         let floor = 1e-6 * size;
         let raise = damping + if least < floor { floor - least } else { 0.0 };
         let (uu, vv) = (uu + raise, vv + raise);
-        let (along_u, along_v) = (u.dot(&slope), v.dot(&slope));
+        let (along_u, along_v) = (u.dot(&slope_b), v.dot(&slope_b));
         let determinant = (uu * vv - uv * uv).max(f64::MIN_POSITIVE);
         let step = u * ((uv * along_v - vv * along_u) / determinant)
             + v * ((uv * along_u - uu * along_v) / determinant);
@@ -136,7 +136,7 @@ pub(super) fn newton(start: &Vec3, steps: usize, lengths: [f64; 2], at: impl Fn(
         }
         let noise = ROUNDING * size;
         // Near the minimum the function is flat to rounding, and the slope decides.
-        let flatter = there.value <= value + noise && there.slope.norm() < slope.norm();
+        let flatter = there.value <= value + noise && there.slope_b.norm() < slope_b.norm();
         if there.value < value - noise || flatter {
             (normal, here) = (next, there);
             damping *= 0.1;

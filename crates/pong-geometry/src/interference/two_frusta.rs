@@ -199,8 +199,8 @@ impl Plate {
         newton(start, steps, [least, FARTHEST], |n| {
             let here = self.along(n);
             let reach = here.places.iter().flatten().map(|place| place.place.amax()).fold(0.0, f64::max);
-            let (slope, bend) = here.derivatives(n);
-            Local { value: here.energy, slope, bend, less: 0.0, size: here.energy.sqrt() * reach }
+            let (slope_b, bend) = here.derivatives(n);
+            Local { value: here.energy, slope_b, bend, less: 0.0, size: here.energy.sqrt() * reach }
         })
     }
 }
