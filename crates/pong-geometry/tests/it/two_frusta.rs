@@ -92,7 +92,7 @@ fn energy_by_search(a: &Frustum, b: &Frustum) -> f64 {
     least
 }
 
-/// Another plate that stores nearly as little may be found, in up to 1 of 250 poses.
+/// Another plate, where two store nearly equally little, may be found in up to 1 of 250 poses.
 #[test]
 fn the_plate_stores_the_least_energy() {
     let mut random = Random::new(49, 11, 0);
