@@ -87,21 +87,20 @@ pub(super) fn frustum_polyhedron(
         let Some(lowest) = disc.exact(&contact.interference) else { continue };
         let status = if contact.stands_in { CandidateStatus::StandIn } else { CandidateStatus::Front };
         is_pushed = true;
-        let is_on_face = lowest.feature.is_face();
-        let rims = if is_on_face { polyhedron.rim(lowest.feature.index()) } else { &[] };
-        // The outline of a face of one piece is not that of the body.
-        let held = match is_on_face && !contact.stands_in && polyhedron.planes().all_active {
-            true => disc.held_by(&lowest, rims.iter().map(|rim| (rim.outward, rim.anchor))),
-            false => lowest,
-        };
-        pair.emit(pair.key_at(end as u32), &held, found, |out| {
-            out.share(true);
-            out.status = status;
-        });
-        let Some(highest) = disc.highest(&lowest).filter(|_| is_on_face) else { continue };
-        let foot = highest.deepest_b + highest.normal_b * highest.depth;
-        if rims.iter().all(|rim| rim.outward.dot(&(foot - rim.anchor)) <= 0.0) {
-            pair.emit(pair.key_at(end as u32 + 2), &highest, found, |out| out.share(true));
+        let mut places = [Some(lowest), None];
+        if lowest.feature.is_face() {
+            let rims = polyhedron.rim(lowest.feature.index()).iter();
+            let is_edge = |neighbor: u32| polyhedron.faces[neighbor as usize].active;
+            let rims = rims.map(|rim| (rim.outward, rim.anchor, is_edge(rim.neighbor)));
+            let is_whole = polyhedron.planes().all_active && !contact.stands_in;
+            places = disc.on_face(&lowest, rims, is_whole);
+        }
+        for (place, end) in places.iter().zip([end, end + 2]) {
+            let Some(place) = place else { continue };
+            pair.emit(pair.key_at(end as u32), place, found, |out| {
+                out.share(true);
+                out.status = status;
+            });
         }
     }
     let mut push_side = |crossing: &Interference| {
