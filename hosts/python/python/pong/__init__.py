@@ -18,6 +18,14 @@ from collections.abc import Sequence
 from enum import IntFlag
 from typing import TYPE_CHECKING, Any
 
+# The library, before the modules that use it: where it is for another platform, Python's own words do not say so.
+try:
+    from . import _pong as _library  # noqa: F401
+except ImportError as _fault:
+    from ._platform import another_platform
+
+    raise ImportError(another_platform(_fault)) from None
+
 from . import model, types
 from ._fit import fit, inertia_from_momentum, plot_fit
 from ._log import Log
