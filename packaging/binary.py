@@ -1,4 +1,4 @@
-"""What a library or program asks of the system it is for, read from the file: format, processor, libraries, oldest system.
+"""Facts of a library or program, read from its file: system, processor, libraries that it needs, oldest system that it runs on.
 
     python3 packaging/binary.py FILE…        one line for each
 
@@ -49,7 +49,8 @@ def elf(path: Path) -> Binary:
 def pe(path: Path) -> Binary:
     told = told_by("objdump", "--private-headers", str(path))
     processor = "x86_64" if "file format pei-x86-64" in told else "unknown"
-    return Binary("windows", processor, tuple(re.findall(r"DLL Name: (.*)", told)), ())
+    needs = dict.fromkeys(re.findall(r"DLL Name: (.*)", told))
+    return Binary("windows", processor, tuple(needs), ())
 
 
 def mach_o(content: bytes) -> Binary:

@@ -33,10 +33,11 @@ class Unfit(Exception):
     """A fault of a wheel, with the cause."""
 
 
-def check_library(tag: str, path: Path) -> str:
-    promised = TAG.match(tag)
+def check_library(tags: str, path: Path) -> str:
+    # Older names of the same tag (manylinux2014) stand beside it.
+    promised = next(filter(None, map(TAG.match, tags.split("."))), None)
     if not promised:
-        raise Unfit(f"`{tag}` is no platform tag of a wheel that is published")
+        raise Unfit(f"`{tags}` is no platform tag of a wheel that is published")
     found = read(path)
     system = "macos" if promised["macos"] else "linux" if promised["glibc"] or promised["musl"] else "windows"
     processor = {"amd64": "x86_64", "arm64": "aarch64"}.get(promised["cpu"], promised["cpu"])
@@ -93,7 +94,7 @@ def check(wheel: Path) -> str:
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / Path(library).name
         path.write_bytes(files[library])
-        return f"{check_library(tags.split('.')[0], path)}; {len(files)} files, {wheel.stat().st_size / 1e6:.1f} MB"
+        return f"{check_library(tags, path)}; {len(files)} files, {wheel.stat().st_size / 1e6:.1f} MB"
 
 
 def main() -> int:

@@ -16,11 +16,12 @@ import os
 import warnings
 from collections.abc import Sequence
 from enum import IntFlag
+from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 # The library, before the modules that use it: where it is for another platform, Python's own words do not say so.
 try:
-    from . import _pong as _library  # noqa: F401
+    import_module("._pong", __name__)
 except ImportError as _fault:
     from ._platform import another_platform
 

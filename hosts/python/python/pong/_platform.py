@@ -1,4 +1,4 @@
-"""Why the library of the package cannot be loaded: it is for another platform, or for a newer Python."""
+"""The reason why the library of the package cannot be loaded: it is for another platform, or for a newer Python."""
 
 import pathlib
 import sys
