@@ -29,7 +29,8 @@ WORKERS = (0, 1)
 STRETCH = 500  # frames
 PACED = 2.0  # s
 TRIES = 4
-MORE, MORE_ELSEWHERE = 0.10, 0.50
+# The ratio of one library differed by 13 % between two days on one kind of processor; smaller losses show in ci/instructions.
+MORE, MORE_ELSEWHERE = 0.25, 0.50
 # Quantile of the recorded hand-over. The processors of a virtual machine may be near each other now and far apart a
 # minute later, and a worker on a far core gains nothing.
 FAR = 1.5

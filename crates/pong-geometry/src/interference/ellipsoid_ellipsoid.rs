@@ -1,7 +1,7 @@
 //! Ellipsoid (A) – ellipsoid (B): the least translation that separates the two (docs/theory.md, 2.6).
 
 use super::ellipsoid_prepared::PreparedEllipsoid;
-use super::least_translation::{Along, descend, least_of_many};
+use super::least_translation::{Along, SAME, descend, least_of_many};
 use super::{Feature, Interference};
 use crate::primitive::Ellipsoid;
 use crate::{Mat3, Vec3};
@@ -21,7 +21,7 @@ pub fn ellipsoid_ellipsoid(a: &Ellipsoid, b: &Ellipsoid) -> Option<Interference>
     let mut normal = descend(&first_direction([&of_a, &of_b], &between), along);
     if overlap(&normal) >= of_a.least_radius() + of_b.least_radius() {
         let directions = of_a.directions().chain(of_b.directions()).chain([normal]);
-        normal = least_of_many(directions, overlap, |start| descend(start, along)).unwrap_or(normal);
+        normal = least_of_many(directions, SAME, overlap, |start| descend(start, along)).unwrap_or(normal);
     }
     let depth = overlap(&normal);
     (depth > 0.0).then(|| Interference {

@@ -6,7 +6,7 @@ use super::ellipsoid_math::{
     nearest_on_ellipse, nearest_on_ellipsoid, second_nearest_on_ellipse, second_nearest_on_ellipsoid,
 };
 use super::ellipsoid_prepared::{PreparedEllipsoid, Shadow};
-use super::least_translation::{Along, Part, descend, lattice, least_of_many};
+use super::least_translation::{Along, Part, SAME, descend, lattice, least_of_many};
 use super::round_surface::of_frustum;
 use super::{Feature, Interference};
 use crate::primitive::{Capsule, Ellipsoid, Frustum};
@@ -79,7 +79,7 @@ pub fn ellipsoid_frustum(ellipsoid: &Ellipsoid, frustum: &Frustum) -> Option<Int
     }
     if !search.is_least(&best) {
         let directions = search.e.directions().chain(lattice(search.frame()));
-        let found = least_of_many(directions, |n| search.overlap(n), |start| search.to_minimum(start));
+        let found = least_of_many(directions, SAME, |n| search.overlap(n), |start| search.to_minimum(start));
         found.into_iter().for_each(|normal| search.offer(normal, search.rim(&normal), &mut best));
     }
     let Candidate { depth, normal, feature } = best;

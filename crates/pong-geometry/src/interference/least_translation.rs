@@ -124,22 +124,24 @@ pub(super) fn descend(start: &Vec3, along: impl Fn(&Vec3) -> Along) -> Vec3 {
     normal
 }
 
+/// Cosine above which two directions of a [`lattice`] lead to one minimum.
+pub(super) const SAME: f64 = 0.9;
+
 /// Returns the best of the normals to which the most promising of `directions` descend. `overlap` is D,
-/// `to_minimum` the descent.
+/// `to_minimum` the descent. Of directions whose cosine is above `same`, the better one counts.
 pub(super) fn least_of_many(
     directions: impl Iterator<Item = Vec3>,
+    same: f64,
     overlap: impl Fn(&Vec3) -> f64,
     to_minimum: impl Fn(&Vec3) -> Vec3,
 ) -> Option<Vec3> {
     /// Number of descents.
     const DESCENTS: usize = 8;
-    /// Cosine above which two starts count as one.
-    const SAME: f64 = 0.9;
     let mut starts = [(f64::INFINITY, Vec3::zeros()); DESCENTS];
     for direction in directions {
         let value = overlap(&direction);
         // The list is sorted, and no two of its directions are near each other.
-        let near = starts.iter().position(|(_, other)| other.dot(&direction) > SAME).unwrap_or(DESCENTS - 1);
+        let near = starts.iter().position(|(_, other)| other.dot(&direction) > same).unwrap_or(DESCENTS - 1);
         if value >= starts[near].0 {
             continue;
         }

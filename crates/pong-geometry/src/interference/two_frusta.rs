@@ -12,7 +12,7 @@
 //! well. For one normal the best offset is a root of a rising piecewise linear function. The normal is found by
 //! Newton's method on the unit sphere.
 
-use super::least_translation::{lattice, least_of_many};
+use super::least_translation::{SAME, lattice, least_of_many};
 use super::round_surface::of_frustum;
 use super::two_ended_round::EndContact;
 use super::{Feature, Interference};
@@ -151,8 +151,10 @@ impl Plate {
     fn best_normal(&self, [a, b]: [&Frustum; 2]) -> Option<Vec3> {
         /// Depth, relative to the smallest radius or length, above which the search starts everywhere.
         const SHALLOW: f64 = 0.1;
+        /// Cosine above which two of the likely normals lead to one minimum: two minima may be 4° apart.
+        const NEAR: f64 = 0.9995;
         /// Steps of a descent.
-        const FEW: usize = 12;
+        const FEW: usize = 24;
         const MANY: usize = 80;
         let first =
             [0.5, 0.0, 1.0].map(|at| of_frustum(&(a.ends[0] + (a.ends[1] - a.ends[0]) * at), b).normal_b);
@@ -170,7 +172,7 @@ impl Plate {
         let energy = |n: &Vec3| self.along(n).energy;
         // Which minimum is the least shows after a few steps; only that one is followed to its bottom.
         let descend = |n: &Vec3| self.descend(n, FEW);
-        let best = self.descend(&least_of_many(starts.into_iter(), energy, descend)?, MANY);
+        let best = self.descend(&least_of_many(starts.into_iter(), NEAR, energy, descend)?, MANY);
         let size = [a, b].map(|body| body.radii[0].max(body.radii[1]).min(body.length));
         let depth = self.along(&best).energy.sqrt();
         if depth < SHALLOW * size[0].min(size[1]) {
@@ -181,7 +183,7 @@ impl Plate {
             [*axis, other, axis.cross(&other)]
         };
         let all = lattice(frame(&a.axis)).chain(lattice(frame(&b.axis))).chain([best]);
-        Some(self.descend(&least_of_many(all, energy, descend)?, MANY))
+        Some(self.descend(&least_of_many(all, SAME, energy, descend)?, MANY))
     }
 
     /// Returns a normal at which the energy is a local minimum, or at which it is zero, or the one after `steps` steps.

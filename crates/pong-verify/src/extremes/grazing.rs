@@ -92,9 +92,8 @@ fn touch(_: Length) -> Outcome {
         }
     }
     Ok(vec![
-        // Point: all except the sheet. Segment: plane, polyhedron. Sphere: all except the ellipsoid.
-        // Ellipsoid: three. Ray: all.
-        Row::count("pairs of kinds with contact", 4 + 2 + 4 + 3 + 5, sweeps),
+        // Point: all except the sheet. Segment: plane, polyhedron. Sphere, ellipsoid and ray: all.
+        Row::count("pairs of kinds with contact", 4 + 2 + 5 + 5 + 5, sweeps),
         Row::count("wrenches that are not finite", 0, bad),
         Row::count("wrenches that differ in a second world", 0, unlike),
         Row::below("steepest change of force over stiffness × step", "", steepest, 2.0),
