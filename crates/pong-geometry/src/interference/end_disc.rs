@@ -93,7 +93,7 @@ impl EndDisc<'_> {
         for (outward, anchor, _) in rims {
             let (over, by) = (outward.dot(&(foot - anchor)), outward.dot(&across));
             if is_whole && over > 0.0 && by > 0.0 {
-                share = share.max(over / by);
+                share = share.max(over / crate::divisor(by));
             }
             is_held &= outward.dot(&(far_foot - anchor)) <= 0.0;
         }
