@@ -52,6 +52,26 @@ impl EndDisc<'_> {
         (depth > 0.0).then_some(Interference { depth, deepest_b, ..*contact })
     }
 
+    /// Returns the contact with a face, `lowest`, where the rim's lowest place hangs over the outline of the face, `rims`:
+    /// at the lowest place of the same diameter that does not.
+    pub fn held_by(&self, lowest: &Interference, rims: impl Iterator<Item = (Vec3, Vec3)>) -> Interference {
+        let across = self.lowest(&lowest.normal_b) * 2.0;
+        let foot = lowest.deepest_b + lowest.normal_b * lowest.depth;
+        let mut share = 0.0_f64;
+        for (outward, anchor) in rims {
+            let (over, by) = (outward.dot(&(foot - anchor)), outward.dot(&across));
+            if over > 0.0 && by > 0.0 {
+                share = share.max(over / by);
+            }
+        }
+        let moved = across * share.min(1.0);
+        Interference {
+            depth: lowest.depth + lowest.normal_b.dot(&moved),
+            deepest_b: lowest.deepest_b - moved,
+            ..*lowest
+        }
+    }
+
     /// Returns the contact of the highest point of the rim along the normal of the lowest one's contact; `None` if it
     /// is above the plane there, and for an apex.
     pub fn highest(&self, lowest: &Interference) -> Option<Interference> {
