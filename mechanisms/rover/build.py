@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Builds floor.ron, step.ron and rigid_wheel.ron through the modelling toolkit: python build.py [FOLDER] [--blend FILE], with Blender as a Python
+"""Builds floor.ron, step.ron, rigid_wheel.ron and rigid_drum.ron through the modelling toolkit: python build.py [FOLDER] [--blend FILE], with Blender as a Python
 module. Tyres and other grounds are those of models/rover as they are.
 """
 
@@ -35,17 +35,22 @@ def step():
     return a.model("step", STONE, a.group("step", primitives=[block], surface="stone"))
 
 
-def rigid_wheel():
+def rigid_wheel(name, tread):
     """Rigid wheel of models/rover/rig_rigid.ron with damping from zero depth: on level ground its depth is 0.4 mm only."""
-    semi_axes = (d.model.WHEEL_RADIUS, d.model.WHEEL_WIDTH / 2, d.model.WHEEL_RADIUS)
     damping = a.linear(d.model.RIGID_DAMPING, ramp=d.RIGID_RAMP)
     friction = a.bristle(d.model.FRICTION, stiffness=2 * d.model.RIGID_STIFFNESS, damping=d.model.BALL_DAMPING)
-    tread = a.ellipsoid("tread", (0.0, 0.0, 0.0), semi_axes)
     turning = a.group("wheel", primitives=[tread], bound="Sphere", surface="tyre", movable=True)
     axle = a.group("carriage", primitives=[a.sphere("axle", (0.0, 0.0, 0.0), d.model.HUB_RADIUS)], surface="tyre")
     surfaces = {"tyre": a.surface(d.model.RIGID_STIFFNESS, damping, friction)}
-    return a.model("rigid_wheel", surfaces, a.group("rigid_wheel", groups=[axle, turning]))
+    return a.model(name, surfaces, a.group(name, groups=[axle, turning]))
+
+
+def rigid_wheels():
+    radius, half = d.model.WHEEL_RADIUS, d.model.WHEEL_WIDTH / 2
+    egg = a.ellipsoid("tread", (0.0, 0.0, 0.0), (radius, half, radius))
+    drum = a.cylinder("tread", (0.0, -half, 0.0), (0.0, half, 0.0), radius)
+    return [rigid_wheel("rigid_wheel", egg), rigid_wheel("rigid_drum", drum)]
 
 
 if __name__ == "__main__":
-    a.main([floor(), step(), rigid_wheel()], HERE)
+    a.main([floor(), step(), *rigid_wheels()], HERE)

@@ -47,7 +47,13 @@ STEER_TORQUE = 150.0  # greatest
 # --- tyres: the wheels of the rigs of models/rover ---------------------------------------------------------------------------
 RIGID_RAMP = 1e-4  # m of depth in which damping sets in
 OF_MODEL = "../../models/rover/"
-TYRES = {"fine": OF_MODEL + "rig_balls.ron", "coarse": OF_MODEL + "rig_ellipsoid.ron", "rigid": "rigid_wheel.ron"}
+TYRES = {
+    "fine": OF_MODEL + "rig_balls.ron",
+    "coarse": OF_MODEL + "rig_ellipsoid.ron",
+    "drum": OF_MODEL + "rig_cylinder.ron",
+    "rigid": "rigid_wheel.ron",
+    "rigid drum": "rigid_drum.ron",
+}
 
 
 @dataclass(frozen=True)
@@ -58,6 +64,7 @@ class Level:
 
 TRAINING, ANALYSIS = Level("coarse", 1e-3), Level("fine", 5e-4)
 RIGID = Level("rigid", 1e-3)
+DRUM, RIGID_DRUM = Level("drum", 1e-3), Level("rigid drum", 1e-3)
 
 
 def _tyre_heights():
@@ -67,11 +74,8 @@ def _tyre_heights():
     sys.modules["dimensions"] = kept
     weight = GROSS_MASS * model.GRAVITY / 6
     one = round(tyre.CORNER_WEIGHT / (model.WHEEL_RADIUS - tyre.STATIC_HEIGHT), -1)
-    return {
-        "fine": tyre.height_under(weight),
-        "coarse": model.WHEEL_RADIUS - weight / one,
-        "rigid": model.WHEEL_RADIUS - weight / model.RIGID_STIFFNESS,
-    }
+    soft, rigid = (model.WHEEL_RADIUS - weight / stiffness for stiffness in (one, model.RIGID_STIFFNESS))
+    return {"fine": tyre.height_under(weight), "coarse": soft, "drum": soft, "rigid": rigid, "rigid drum": rigid}
 
 
 AXLE_HEIGHT = _tyre_heights()

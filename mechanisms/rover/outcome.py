@@ -52,6 +52,31 @@ def step_up(name, climbed, missed):
     yield from honest(made)
 
 
+def drums():
+    """Cylinders for wheels, beside the spheres and ellipsoids of the other checks."""
+    level = d.RIGID_DRUM
+    predicted = scenes.stall_slope()
+    angle, made = scenes.stalls_at(predicted, level=level)
+    yield Row("slope at which the motors stall", math.degrees(angle), math.degrees(predicted), 5e-3, "deg")
+    more = math.atan(model.FRICTION) + math.radians(0.5)
+    slid, made = scenes.slides(more, level)
+    closed = model.GRAVITY * (math.sin(more) - model.FRICTION * math.cos(more))
+    yield Row("locked, 0.5 deg above atan μ: g·(sin − μ·cos)", slid, closed, 1e-2, "m/s²")
+    for tyre in (d.RIGID, level, d.TRAINING, d.DRUM, d.ANALYSIS):
+        slip, _ = scenes.slip(tyre)
+        yield Limit(f"slip of the {tyre.tyre} tyre with 60 % of the voltage", abs(slip), 0.05)
+    torque, up, made = scenes.climbs("front", 0.19, level=level)
+    yield Fact("the front wheels climb 190 mm", up)
+    yield Row("torque at which they come off the ground", torque, statics.needed("front", 0.19), 0.06, "N m")
+    yield from honest(made)
+    _, exact = timed(d.ANALYSIS)
+    made, rough = timed(d.DRUM)
+    count = min(len(exact), len(rough))
+    off = np.abs(rough[:count] - exact[:count])[:, 1:3].max()
+    yield Limit("drum beside fine tyre over the stone: way and height", off, 0.05, "m")
+    yield from honest(made)
+
+
 def trade():
     """The stone with both tyres: cost and error of the coarse one."""
     fine, exact = timed(d.ANALYSIS)
@@ -135,6 +160,7 @@ def rows(thorough):
         yield "step, middle wheels", step_up("middle", 0.20, 0.25)
         yield "step, rear wheels", step_up("rear", 0.12, 0.14)
         yield "stone: fine and coarse tyre", trade()
+        yield "cylinders for wheels", drums()
         yield "one motor does not drive", off_nominal()
         yield "rocks", rocks()
         yield "half the step", half_step()

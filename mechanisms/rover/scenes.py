@@ -87,9 +87,9 @@ def stall_slope(motors=6):
     return math.asin(motors * VOLTAGE * d.STALL_TORQUE / d.AXLE_HEIGHT["rigid"] / (d.GROSS_MASS * model.GRAVITY))
 
 
-def pulled(angle, dead=(), step=None):
+def pulled(angle, dead=(), step=None, level=d.RIGID):
     """Acceleration up a slope at a constant voltage, m/s², near standstill; and the machine."""
-    made = rig.machine(d.RIGID, angle=angle, step=step)
+    made = rig.machine(level, angle=angle, step=step)
     rig.voltages(made, {name: 0.0 if name in dead else VOLTAGE for name in rig.WHEELS})
     for name in dead:
         _without_power(made, name)
@@ -106,37 +106,51 @@ def _without_power(made, name):
     made.model.actuator_biasprm[motor] = 0.0
 
 
-def stalls_at(predicted, dead=()):
+def stalls_at(predicted, dead=(), level=d.RIGID):
     """Slope of zero acceleration, from one below and one above, rad; and the last machine."""
     sines = [share * math.sin(predicted) for share in (0.98, 1.02)]
-    found = [pulled(math.asin(sine), dead) for sine in sines]
+    found = [pulled(math.asin(sine), dead, level=level) for sine in sines]
     (up, _), (down, made) = found
     return math.asin(sines[0] + (sines[1] - sines[0]) * up / (up - down)), made
 
 
-def slides(angle):
+def slides(angle, level=d.RIGID):
     """Acceleration down a slope with locked wheels, m/s², and the machine."""
-    made = rig.machine(d.RIGID, angle=angle, locked=True)
+    made = rig.machine(level, angle=angle, locked=True)
     made.run(SETTLED)
     first = float(made.data.qvel[0])
     made.run(3.0)
     return (first - float(made.data.qvel[0])) / 3.0, made
 
 
+def slip(level, seconds=3.0):
+    """Slip of the wheels while the motors pull on level ground: share of the way over the ground by which the treads are
+    ahead. And the machine."""
+    made = rig.machine(level, ground="floor" if level.tyre.startswith("rigid") else "ground")
+    made.run(SETTLED)
+    rig.voltages(made, VOLTAGE)
+    turned = [made.joint(f"drive_{name}") for name in rig.WHEELS]
+    first = float(made.data.qpos[0])
+    made.run(seconds)
+    way = float(made.data.qpos[0]) - first
+    treads = [made.joint(f"drive_{name}") - before for name, before in zip(rig.WHEELS, turned)]
+    return d.AXLE_HEIGHT[level.tyre] * sum(treads) / len(treads) / way - 1.0, made
+
+
 # --- steps and stones ------------------------------------------------------------------------------------------------------
 
 
-def climbs(name, height, step=None):
+def climbs(name, height, step=None, level=d.RIGID):
     """Torque with which the wheels `name` (front, middle or rear) leave the ground, N·m; and whether they are up at the end.
 
     The rover is let down onto ground and step, rolls to the edge and stands there; then all motors' torques rise slowly
     to what they can give. Without the stand, momentum would help. And the machine.
     """
     ahead, above = model.WHEEL_RADIUS + 0.02, 0.0 if name == "front" else height + 0.002
-    made = rig.machine(d.RIGID, x=-d.AXLE_X[name] - ahead, more_ground=height, step=step, height=above)
+    made = rig.machine(level, x=-d.AXLE_X[name] - ahead, more_ground=height, step=step, height=above)
     wheel = f"wheel_{name}_left"
-    told = crawl(CRAWL, d.RIGID, cap=rising)
-    made.run(LET_DOWN, crawl(0.0, d.RIGID))
+    told = crawl(CRAWL, level, cap=rising)
+    made.run(LET_DOWN, crawl(0.0, level))
     made.start()  # the account of energy: without the fall
     made.run(STANDS - LET_DOWN, told)
     low = made.place(wheel)[2]

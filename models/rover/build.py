@@ -176,10 +176,12 @@ def rigs():
     one = round(tyre.CORNER_WEIGHT / (WHEEL_RADIUS - tyre.STATIC_HEIGHT), -1)
     egg = a.ellipsoid("tread", (0.0, 0.0, 0.0), (WHEEL_RADIUS, WHEEL_WIDTH / 2, WHEEL_RADIUS))
     ball = a.sphere("tread", (0.0, 0.0, 0.0), WHEEL_RADIUS)
+    drum = a.cylinder("tread", (0.0, -WHEEL_WIDTH / 2, 0.0), (0.0, WHEEL_WIDTH / 2, 0.0), WHEEL_RADIUS)
     return [
         rig("rig_balls", ring("ball", BALLS, BALL_RADIUS, RING_RADIUS), BALL_STIFFNESS, BALL_DAMPING),
         rig("rig_ellipsoid", [egg], one, 6 * BALL_DAMPING),
         rig("rig_sphere", [ball], one, 6 * BALL_DAMPING),
+        rig("rig_cylinder", [drum], one, 6 * BALL_DAMPING),
         rig("rig_rigid", [egg], RIGID_STIFFNESS, RIGID_DAMPING),
     ]
 

@@ -224,6 +224,14 @@ def roll_ellipsoid(run):
     yield "rise over the bar, of its height", bar / BAR, 0.5, 2.5
 
 
+def roll_cylinder(run):
+    level, ripple, beside, bar = roll(run, "cylinder")
+    yield "load on the level over weight", level, 0.995, 1.005
+    yield "ripple of the load, of its mean", ripple, 0.0, 0.02
+    yield "rise beside the stone, mm", beside * 1e3, -2.0, 2.0
+    yield "rise over the bar, of its height", bar / BAR, 0.5, 2.5
+
+
 def roll_sphere(run):
     """Defect of a sphere as large as the wheel: it climbs objects beside its path."""
     level, ripple, beside, _ = roll(run, "sphere")
@@ -259,5 +267,6 @@ OUTCOMES = {
     "scene_roll_balls.ron": roll_balls,
     "scene_roll_ellipsoid.ron": roll_ellipsoid,
     "scene_roll_sphere.ron": roll_sphere,
+    "scene_roll_cylinder.ron": roll_cylinder,
     "scene_traverse.ron": traverse,
 }

@@ -54,7 +54,7 @@ def texts():
     }
     for name in STEP_TORQUES:
         made[f"step_{name}"] = step_scene(name)
-    for kind in ("balls", "ellipsoid", "sphere"):
+    for kind in ("balls", "ellipsoid", "sphere", "cylinder"):
         made[f"roll_{kind}"] = roll_scene(kind)
     return {f"scene_{name}.ron": text for name, text in made.items()}
 

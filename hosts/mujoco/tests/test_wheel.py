@@ -4,6 +4,7 @@ import os
 import pathlib
 import subprocess
 import sys
+import tempfile
 import unittest
 import zipfile
 
@@ -43,6 +44,19 @@ pong_mujoco.plugin_path()
                               capture_output=True, text=True)
         self.assertEqual(done.stdout, f"['{mujoco.__version__}'] 1.0 9.81\n", done.stderr)
         self.assertIn("ImportError: pong_mujoco has no plugin for MuJoCo 3.9.0, only for 4.0.0: install that version", done.stderr)
+
+    def test_a_library_of_another_platform_is_told_with_cause_and_cure(self):
+        with tempfile.TemporaryDirectory() as folder, zipfile.ZipFile(WHEEL) as wheel:
+            wheel.extractall(folder)
+            library = pathlib.Path(folder) / "pong_mujoco/binaries" / mujoco.__version__ / "libpong.so.1"
+            content = bytearray(library.read_bytes())
+            content[18] ^= 0xFF  # the processor in the header of the file
+            library.write_bytes(content)
+            done = subprocess.run([sys.executable, "-c", "import pong_mujoco"], env=dict(os.environ, PYTHONPATH=folder),
+                                  capture_output=True, text=True)
+        self.assertIn("ImportError: pong_mujoco was installed for another platform than linux", done.stderr)
+        self.assertIn("it has libpong.so.1, libpong_contact.so (", done.stderr)
+        self.assertIn("install its wheel for this platform", done.stderr)
 
 
 if __name__ == "__main__":

@@ -28,6 +28,7 @@ mod moving_surfaces;
 mod normal_tangents;
 mod one_surface;
 mod other_descriptions;
+mod overlaps;
 mod pairs;
 mod preload;
 mod regressor;

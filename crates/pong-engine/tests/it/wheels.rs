@@ -156,6 +156,55 @@ fn wheel_that_rolls_over_edges_is_held_as_a_ball() {
     }
 }
 
+/// A drum that stands on the edge of a block or of a sheet, on a narrow block or on a rail, is held along the way up, by no
+/// more than its spring and at a place of the ground, wherever its middle is and however it leans.
+#[test]
+fn a_standing_drum_is_never_pushed_aside() {
+    const DEPTH: f64 = 1e-3;
+    let grounds = [
+        ("block", box_polyhedron("b", [-1.0, 0.0, -0.5], [1.0, 1.0, 0.5], "")),
+        ("narrow block", box_polyhedron("b", [0.0, 0.0, -0.5], [0.05, 0.06, 0.5], "")),
+        ("rail", box_polyhedron("b", [0.0, 0.0, -0.5], [0.02, 1.0, 0.5], "")),
+        (
+            "edge of a sheet",
+            "TriangleMesh(name: \"m\", vertices: [(-2,-1,0),(0,-1,0),(0,1,0),(-2,1,0)], \
+             triangles: [(0,1,2),(0,2,3)])"
+                .to_owned(),
+        ),
+    ];
+    for ((name, parts), part) in grounds.iter().flat_map(|ground| [WHEEL, PLUG].map(|part| (ground, part))) {
+        let mut rig = on(part, name, parts);
+        // The free edge of a sheet holds no drum whose middle has passed it.
+        let last = if *name == "edge of a sheet" { -1 } else { 9 };
+        for step in -9..=last {
+            for lean in [0.0, 1e-9, -1e-9, 1e-5, -1e-5, 1e-3, -1e-3] {
+                let turn = Quat::from_axis_angle(&Vec3::x_axis(), std::f64::consts::FRAC_PI_2)
+                    * Quat::from_scaled_axis(Vec3::z() * lean);
+                let position = Vec3::new(0.02 * f64::from(step) + 0.003, 0.011, 0.15 - DEPTH);
+                let (wrench, _) = pressed(&mut rig, position, turn);
+                let Wrench { force, moment } = wrench;
+                let most = 0.5 * K * (DEPTH + 0.25 * lean.abs());
+                let told = format!("{name}, {position:?}, {lean}: {force:?}");
+                assert!(force.z > 0.2 * most && force.z < 1.001 * most, "{told}");
+                assert!(force.xy().norm() < 0.01 * force.z, "{told}");
+                // The load lies on the ground.
+                let [x, y] = [-moment.y / force.z + position.x, moment.x / force.z + position.y];
+                let (ahead, aside) = match *name {
+                    "narrow block" => (0.05, 0.06),
+                    "rail" => (0.02, 1.0),
+                    _ => (2.0, 1.0),
+                };
+                let on_edge = 1e-5 + 0.3 * lean.abs();
+                assert!(
+                    x < if ahead < 1.0 { ahead } else { 0.0 } + on_edge && x > -ahead - on_edge,
+                    "{told}"
+                );
+                assert!(y.abs() < aside + on_edge, "{told}");
+            }
+        }
+    }
+}
+
 /// At faces, edges and corners, wherever the energy has a derivative it is the wrench.
 #[test]
 fn the_wrench_of_a_wheel_is_the_derivative_of_its_energy() {

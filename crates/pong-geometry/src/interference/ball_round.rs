@@ -2,7 +2,7 @@
 //! nearest to the sphere's centre. For a centre inside, the contact is on the side of least depth.
 
 use super::Interference;
-use super::round_surface::{Nearest, of_capsule, of_frustum};
+use super::round_surface::{Nearest, of_capsule, of_frustum_within};
 use crate::Vec3;
 use crate::primitive::{Capsule, Frustum, Sphere};
 
@@ -13,7 +13,7 @@ pub fn ball_capsule(ball: &Sphere, capsule: &Capsule) -> Option<Interference> {
 
 /// Tests a sphere, or with radius 0 a point, against a cylinder or a cone.
 pub fn ball_frustum(ball: &Sphere, frustum: &Frustum) -> Option<Interference> {
-    pressed(&ball.center, ball.radius, &of_frustum(&ball.center, frustum))
+    pressed(&ball.center, ball.radius, &of_frustum_within(&ball.center, frustum, ball.radius)?)
 }
 
 /// Returns the contact of a sphere, given the solid's surface point nearest to the sphere's centre; `None` if

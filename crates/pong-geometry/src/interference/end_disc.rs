@@ -19,16 +19,22 @@ pub struct EndDisc<'a> {
     pub end: usize,
 }
 
+/// Sine of an angle between two unit vectors that can come from rounding alone.
+const UPRIGHT: f64 = 16.0 * f64::EPSILON;
+
 impl EndDisc<'_> {
     fn radius(&self) -> f64 {
         self.frustum.radii[self.end]
     }
 
+    /// Returns `true` if the disc stands on a normal, up to rounding.
+    fn stands_on(&self, normal: &Vec3) -> bool {
+        normal.cross(&self.frustum.axis).norm() <= UPRIGHT
+    }
+
     /// Returns the vector from the centre to the lowest point of the rim, opposite to `normal`, m. If the disc stands on
     /// the normal up to rounding, the direction is a fixed one across it.
     fn lowest(&self, normal: &Vec3) -> Vec3 {
-        /// Sine of an angle between two unit vectors that can come from rounding alone.
-        const UPRIGHT: f64 = 16.0 * f64::EPSILON;
         let level = normal.cross(&self.frustum.axis);
         let sine = level.norm();
         let down = if sine > UPRIGHT {
@@ -50,6 +56,55 @@ impl EndDisc<'_> {
         let deepest_b = self.frustum.ends[self.end] + place;
         let depth = depth - (half_width - of_rim);
         (depth > 0.0).then_some(Interference { depth, deepest_b, ..*contact })
+    }
+
+    /// Returns the contacts of the lowest and of the highest place of the rim with a face, from the contact of the lowest
+    /// one. `rims` is its outline: of each edge the outward direction, a place, and `false` where the body goes on as
+    /// another piece. A highest place that hangs over the outline is `None`. A disc that stands has the diameter towards
+    /// the edge past which it reaches most. If `is_whole`, the outline is that of the body, and where the lowest place
+    /// hangs over it, the lowest place of the same diameter counts that does not.
+    pub fn on_face(
+        &self,
+        lowest: &Interference,
+        rims: impl Iterator<Item = (Vec3, Vec3, bool)> + Clone,
+        is_whole: bool,
+    ) -> [Option<Interference>; 2] {
+        let center = &self.frustum.ends[self.end];
+        let mut lowest = *lowest;
+        let mut down = self.lowest(&lowest.normal_b);
+        let reach =
+            |(outward, anchor, _): &(Vec3, Vec3, bool)| self.radius() + outward.dot(&(center - anchor));
+        let edges = rims.clone().filter(|(_, _, is_edge)| *is_edge);
+        let farthest = edges.reduce(|a, b| if reach(&b) > reach(&a) { b } else { a });
+        let is_level = self.stands_on(&lowest.normal_b);
+        if let Some((outward, ..)) = farthest.filter(|rim| is_level && reach(rim) > 0.0) {
+            down = outward * self.radius();
+            lowest.deepest_b = center + down;
+        }
+        let foot = lowest.deepest_b + lowest.normal_b * lowest.depth;
+        let (mut share, mut is_held) = (0.0_f64, true);
+        let across = down * 2.0;
+        let highest = Interference {
+            depth: lowest.depth + lowest.normal_b.dot(&across),
+            deepest_b: lowest.deepest_b - across,
+            ..lowest
+        };
+        let far_foot = highest.deepest_b + highest.normal_b * highest.depth;
+        for (outward, anchor, _) in rims {
+            let (over, by) = (outward.dot(&(foot - anchor)), outward.dot(&across));
+            if is_whole && over > 0.0 && by > 0.0 {
+                share = share.max(over / crate::divisor(by));
+            }
+            is_held &= outward.dot(&(far_foot - anchor)) <= 0.0;
+        }
+        let moved = across * share.min(1.0);
+        let held = Interference {
+            depth: lowest.depth + lowest.normal_b.dot(&moved),
+            deepest_b: lowest.deepest_b - moved,
+            ..lowest
+        };
+        let pushes = highest.depth > 0.0 && self.radius() > 0.0;
+        [Some(held).filter(|held| held.depth > 0.0), Some(highest).filter(|_| is_held && pushes)]
     }
 
     /// Returns the contact of the highest point of the rim along the normal of the lowest one's contact; `None` if it

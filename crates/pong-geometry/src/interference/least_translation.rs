@@ -79,41 +79,66 @@ pub(super) fn lattice(frame: [Vec3; 3]) -> impl Iterator<Item = Vec3> {
 /// are apart. `along` evaluates D near a normal.
 pub(super) fn descend(start: &Vec3, along: impl Fn(&Vec3) -> Along) -> Vec3 {
     const STEPS: usize = 60;
-    /// Rounding of D, relative to the lengths that enter.
-    const ROUNDING: f64 = 8.0 * f64::EPSILON;
     /// Longest step, rad.
     const FARTHEST: f64 = 0.5;
+    newton(start, STEPS, [f64::EPSILON, FARTHEST], |normal| {
+        let Along { overlap, farthest_b, radii } = along(normal);
+        let size = farthest_b.norm() + radii.amax();
+        Local { value: overlap, slope_b: farthest_b - normal * overlap, bend: radii, less: overlap, size }
+    })
+}
+
+/// Value of a function of a unit vector, and its derivatives when the vector turns.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Local {
+    pub value: f64,
+    /// First derivative, in the tangent plane.
+    pub slope_b: Vec3,
+    /// Second derivative in a direction u of the tangent plane: u·(bend·u) − less.
+    pub bend: Mat3,
+    pub less: f64,
+    /// Size of the terms of which `slope_b` and `bend` are sums; it tells how large rounding is.
+    pub size: f64,
+}
+
+/// Returns a unit vector at which a function is a local minimum, or at which it is not positive, or the one after
+/// `steps` of Newton's steps. Steps longer than `lengths[1]`, rad, are shortened; one that is not longer than `lengths[0]`
+/// is the last.
+pub(super) fn newton(start: &Vec3, steps: usize, lengths: [f64; 2], at: impl Fn(&Vec3) -> Local) -> Vec3 {
+    /// Rounding of the value, relative to the size of its terms.
+    const ROUNDING: f64 = 8.0 * f64::EPSILON;
     let (mut normal, mut damping) = (*start, 0.0);
-    let mut here = along(&normal);
-    let mut slope = here.farthest_b - normal * here.overlap;
-    for _ in 0..STEPS {
-        let size = here.farthest_b.norm() + here.radii.amax();
-        if here.overlap <= 0.0 || slope.norm() <= f64::EPSILON * size {
+    let mut here = at(&normal);
+    for _ in 0..steps {
+        let Local { value, slope_b, bend, less, size } = here;
+        if value <= 0.0 || slope_b.norm() <= f64::EPSILON * size {
             break;
         }
         let u = any_perpendicular(&normal);
         let v = normal.cross(&u);
-        let (of_u, of_v) = (here.radii * u, here.radii * v);
-        let (uu, uv, vv) = (u.dot(&of_u) - here.overlap, u.dot(&of_v), v.dot(&of_v) - here.overlap);
-        // Smaller eigenvalue: raised to a positive one where D is not convex.
+        let (of_u, of_v) = (bend * u, bend * v);
+        let (uu, uv, vv) = (u.dot(&of_u) - less, u.dot(&of_v), v.dot(&of_v) - less);
+        // Smaller eigenvalue: raised to a positive one where the function is not convex.
         let least = 0.5 * (uu + vv) - (0.25 * (uu - vv) * (uu - vv) + uv * uv).sqrt();
         let floor = 1e-6 * size;
-        let raise = damping + (floor - least).max(0.0) * if least < floor { 1.0 } else { 0.0 };
+        let raise = damping + if least < floor { floor - least } else { 0.0 };
         let (uu, vv) = (uu + raise, vv + raise);
-        let (along_u, along_v) = (u.dot(&slope), v.dot(&slope));
+        let (along_u, along_v) = (u.dot(&slope_b), v.dot(&slope_b));
         let determinant = (uu * vv - uv * uv).max(f64::MIN_POSITIVE);
         let step = u * ((uv * along_v - vv * along_u) / determinant)
             + v * ((uv * along_u - uu * along_v) / determinant);
         let length = step.norm();
-        let step = if length > FARTHEST { step * (FARTHEST / length) } else { step };
+        let step = if length > lengths[1] { step * (lengths[1] / length) } else { step };
         let next = (normal + step).normalize();
-        let there = along(&next);
-        let slope_there = there.farthest_b - next * there.overlap;
+        let there = at(&next);
+        if length <= lengths[0] && lengths[0] > f64::EPSILON {
+            return next;
+        }
         let noise = ROUNDING * size;
-        // Near the minimum D is flat to rounding, and the slope decides.
-        let flatter = there.overlap <= here.overlap + noise && slope_there.norm() < slope.norm();
-        if there.overlap < here.overlap - noise || flatter {
-            (normal, here, slope) = (next, there, slope_there);
+        // Near the minimum the function is flat to rounding, and the slope decides.
+        let flatter = there.value <= value + noise && there.slope_b.norm() < slope_b.norm();
+        if there.value < value - noise || flatter {
+            (normal, here) = (next, there);
             damping *= 0.1;
         } else if length <= f64::EPSILON {
             break;

@@ -59,26 +59,56 @@ pub(crate) struct Meridian {
 
 impl Meridian {
     pub fn new(place: &Vec3, frustum: &Frustum) -> Self {
-        let arm = place - frustum.ends[0];
-        let along = frustum.axis.dot(&arm);
-        let across = arm - frustum.axis * along;
-        let aside = across.norm();
+        Self::of_parts(place, frustum, &parts(place, frustum))
+    }
+
+    fn of_parts(place: &Vec3, frustum: &Frustum, &(along, across, aside): &(f64, Vec3, f64)) -> Self {
         let is_beside = aside > ROUNDING * place.amax().max(frustum.ends[0].amax());
         let away_b = if is_beside { (across / aside).normalize() } else { any_perpendicular(&frustum.axis) };
         Self { along, aside, away_b }
     }
 }
 
+/// Returns the distance of a point from end 0 along the axis of a frustum, its arm across the axis, and the length of
+/// this arm, m.
+#[inline]
+fn parts(place: &Vec3, frustum: &Frustum) -> (f64, Vec3, f64) {
+    let arm = place - frustum.ends[0];
+    let along = frustum.axis.dot(&arm);
+    let across = arm - frustum.axis * along;
+    (along, across, across.norm())
+}
+
 /// Returns the surface point of a frustum nearest to `place`. In the half plane of [`Meridian`] the solid is
 /// a trapezoid. For a point outside, the result is the nearest point of the trapezoid. For a point inside, it
 /// lies on the side of the trapezoid below which the point is least deep.
 pub(crate) fn of_frustum(place: &Vec3, frustum: &Frustum) -> Nearest {
-    let at = Meridian::new(place, frustum);
+    // Nothing is farther than infinity.
+    of_frustum_within(place, frustum, f64::INFINITY).unwrap_or(Nearest {
+        distance: f64::INFINITY,
+        normal_b: frustum.axis,
+        feature: Feature::WHOLE,
+    })
+}
+
+/// Returns the same as [`of_frustum`]; it may return `None` if the point is farther than `reach` from the solid, m.
+#[inline]
+pub(crate) fn of_frustum_within(place: &Vec3, frustum: &Frustum, reach: f64) -> Option<Nearest> {
+    /// Rounding of a distance, relative to the lengths that enter, with a margin.
+    const SLACK: f64 = 1e-12;
+    let parts = parts(place, frustum);
+    let (along, _, aside) = parts;
     let [wall_along, wall_aside] = frustum.wall;
     let [first, last] = frustum.radii;
+    let over_wall = along * wall_along + (aside - first) * wall_aside;
+    let heights = [over_wall, -along, along - frustum.length];
+    // The solid is below the planes of its sides.
+    let highest = heights[0].max(heights[1]).max(heights[2]);
+    if highest > reach + SLACK * (along.abs() + aside + first + frustum.length) {
+        return None;
+    }
+    let at = Meridian::of_parts(place, frustum, &parts);
     let in_space = |along: f64, aside: f64| frustum.axis * along + at.away_b * aside;
-    let over_wall = at.along * wall_along + (at.aside - first) * wall_aside;
-    let heights = [over_wall, -at.along, at.along - frustum.length];
     let normals = [(wall_along, wall_aside), (-1.0, 0.0), (1.0, 0.0)];
     if heights.iter().all(|&height| height <= 0.0) {
         let mut least = 0;
@@ -89,7 +119,7 @@ pub(crate) fn of_frustum(place: &Vec3, frustum: &Frustum) -> Nearest {
         }
         let (along, aside) = normals[least];
         let normal = in_space(along, aside).normalize();
-        return Nearest { distance: heights[least], normal_b: normal, feature: Feature::face(least) };
+        return Some(Nearest { distance: heights[least], normal_b: normal, feature: Feature::face(least) });
     }
     let feet = [on_wall(&at, frustum), (0.0, at.aside.min(first)), (frustum.length, at.aside.min(last))];
     let square = |side: usize| {
@@ -108,7 +138,7 @@ pub(crate) fn of_frustum(place: &Vec3, frustum: &Frustum) -> Nearest {
         (along, aside) if along == frustum.length && aside == last => Feature::edge(1),
         _ => Feature::face(nearest),
     };
-    Nearest { distance, normal_b: in_space(along, aside).normalize(), feature }
+    Some(Nearest { distance, normal_b: in_space(along, aside).normalize(), feature })
 }
 
 /// Returns the point of the lateral surface nearest to `at`, in the coordinates of [`Meridian`]: distance

@@ -12,10 +12,11 @@
 //! well. For one normal the best offset is a root of a rising piecewise linear function. The normal is found by
 //! Newton's method on the unit sphere.
 
-use super::least_translation::{SAME, lattice, least_of_many};
+use super::least_translation::{Local, SAME, lattice, least_of_many, newton};
 use super::round_surface::of_frustum;
 use super::two_ended_round::EndContact;
 use super::{Feature, Interference};
+use crate::distance::Solid;
 use crate::primitive::Frustum;
 use crate::{Mat3, Vec3, any_perpendicular};
 
@@ -30,6 +31,10 @@ pub fn two_frusta(a: &Frustum, b: &Frustum) -> PlateContacts {
     let Some(normal) = between.best_normal([a, b]) else { return [None; 4] };
     let at = between.along(&normal);
     if at.energy <= 0.0 {
+        return [None; 4];
+    }
+    if !at.meet([a, b], &center) && Solid::frustum(a).to_within(&Solid::frustum(b), 0.0).is_none() {
+        // A plane separates the two, and the search has missed it.
         return [None; 4];
     }
     // U = ½k·Σ(force/k)·depth.
@@ -153,9 +158,9 @@ impl Plate {
         const SHALLOW: f64 = 0.1;
         /// Cosine above which two of the likely normals lead to one minimum: two minima may be 4° apart.
         const NEAR: f64 = 0.9995;
-        /// Steps of a descent.
-        const FEW: usize = 24;
-        const MANY: usize = 80;
+        /// Steps of a descent, and the length of a last step, rad.
+        const FEW: (usize, f64) = (24, 1e-4);
+        const MANY: (usize, f64) = (80, f64::EPSILON);
         let first =
             [0.5, 0.0, 1.0].map(|at| of_frustum(&(a.ends[0] + (a.ends[1] - a.ends[0]) * at), b).normal_b);
         let back =
@@ -186,52 +191,34 @@ impl Plate {
         Some(self.descend(&least_of_many(all, SAME, energy, descend)?, MANY))
     }
 
-    /// Returns a normal at which the energy is a local minimum, or at which it is zero, or the one after `steps` steps.
-    fn descend(&self, start: &Vec3, steps: usize) -> Vec3 {
+    /// Returns a normal at which the energy is a local minimum, or at which it is zero, or the one after `steps` steps or after
+    /// one that is not longer than `least`, rad.
+    fn descend(&self, start: &Vec3, (steps, least): (usize, f64)) -> Vec3 {
         /// Longest step, rad.
         const FARTHEST: f64 = 0.3;
-        let (mut n, mut damping) = (*start, 0.0);
-        let mut here = self.along(&n);
-        let (mut slope, mut bend) = here.derivatives(&n);
-        for _ in 0..steps {
-            let size = here.places.iter().flatten().map(|place| place.place.amax()).fold(0.0, f64::max);
-            let force = here.energy.sqrt();
-            if here.energy <= 0.0 || slope.norm() <= f64::EPSILON * force * size {
-                break;
-            }
-            let u = any_perpendicular(&n);
-            let v = n.cross(&u);
-            let (of_u, of_v) = (bend * u, bend * v);
-            let (uu, uv, vv) = (u.dot(&of_u), u.dot(&of_v), v.dot(&of_v));
-            let least = 0.5 * (uu + vv) - (0.25 * (uu - vv) * (uu - vv) + uv * uv).sqrt();
-            let floor = 1e-6 * force * size;
-            let raise = damping + if least < floor { floor - least } else { 0.0 };
-            let (uu, vv) = (uu + raise, vv + raise);
-            let (along_u, along_v) = (u.dot(&slope), v.dot(&slope));
-            let determinant = (uu * vv - uv * uv).max(f64::MIN_POSITIVE);
-            let step = u * ((uv * along_v - vv * along_u) / determinant)
-                + v * ((uv * along_u - uu * along_v) / determinant);
-            let length = step.norm();
-            let step = if length > FARTHEST { step * (FARTHEST / length) } else { step };
-            let next = (n + step).normalize();
-            let there = self.along(&next);
-            let (slope_there, bend_there) = there.derivatives(&next);
-            let noise = 8.0 * f64::EPSILON * force * size;
-            let flatter = there.energy <= here.energy + noise && slope_there.norm() < slope.norm();
-            if there.energy < here.energy - noise || flatter {
-                (n, here, slope, bend) = (next, there, slope_there, bend_there);
-                damping *= 0.1;
-            } else if length <= f64::EPSILON {
-                break;
-            } else {
-                damping = (4.0 * damping).max(0.1 * (uu.abs() + vv.abs()));
-            }
-        }
-        n
+        newton(start, steps, [least, FARTHEST], |n| {
+            let here = self.along(n);
+            let reach = here.places.iter().flatten().map(|place| place.place.amax()).fold(0.0, f64::max);
+            let (slope_b, bend) = here.derivatives(n);
+            Local { value: here.energy, slope_b, bend, less: 0.0, size: here.energy.sqrt() * reach }
+        })
     }
 }
 
 impl Along {
+    /// Returns `true` if the middle of the load on one body surely lies in the other. `center` is the origin of the search.
+    fn meet(&self, [a, b]: [&Frustum; 2], center: &Vec3) -> bool {
+        /// Depth, relative to the length of a body, that does not come from rounding.
+        const SURELY: f64 = 1e-12;
+        let lies_in = |places: &[Place; 4], other: &Frustum| {
+            let load: f64 = places.iter().map(|place| place.pressed).sum();
+            let moment = places.iter().map(|place| place.place * place.pressed).sum::<Vec3>();
+            let middle = moment / load.max(f64::MIN_POSITIVE) + center;
+            load > 0.0 && of_frustum(&middle, other).distance < -SURELY * other.length
+        };
+        lies_in(&self.places[0], b) || lies_in(&self.places[1], a)
+    }
+
     /// Returns the derivative of half the `energy` when the normal turns, in the tangent plane, and the second derivative.
     fn derivatives(&self, n: &Vec3) -> (Vec3, Mat3) {
         let (mut slope, mut bend, mut mixed, mut count) = (Vec3::zeros(), Mat3::zeros(), Vec3::zeros(), 0.0);

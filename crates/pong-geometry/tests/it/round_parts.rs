@@ -183,7 +183,7 @@ fn a_rod_on_the_axis_of_a_solid_leaves_it_by_the_shortest_way() {
 fn depths_are_the_least_translation_that_separates() {
     let mut random = Random::new(1, 0, 0);
     let mut touching = 0;
-    for case in 0..long_samples(60, 150) {
+    for case in 0..long_samples(30, 150) {
         let solid = random_solid(&mut random);
         if matches!(solid, Solid::Capsule(_)) {
             continue;
@@ -203,7 +203,7 @@ fn depths_are_the_least_translation_that_separates() {
             assert!((out - found).abs() < 1e-11, "{told}: the normal separates by {out}");
         }
     }
-    assert!(touching > long_samples(12, 30));
+    assert!(touching > long_samples(6, 30));
 }
 
 /// Rods whose axes pass through a cylinder or a cone, many poses for each pair: no searched direction gives a

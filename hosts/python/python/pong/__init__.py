@@ -16,7 +16,16 @@ import os
 import warnings
 from collections.abc import Sequence
 from enum import IntFlag
+from importlib import import_module
 from typing import TYPE_CHECKING, Any
+
+# The library, before the modules that use it: where it is for another platform, Python's own words do not say so.
+try:
+    import_module("._pong", __name__)
+except ImportError as _fault:
+    from ._platform import another_platform
+
+    raise ImportError(another_platform(_fault)) from None
 
 from . import model, types
 from ._fit import fit, inertia_from_momentum, plot_fit

@@ -7,13 +7,20 @@ use pong_geometry::Vec3;
 
 /// Assigns the weights of the contacts of a capsule's end spheres (`ends`) and of its axis with edges
 /// (`middle`). Only the deepest edge contact counts, and only if its depth exceeds the minimum translations
-/// of both end spheres; all other edge contacts are culled.
+/// of both end spheres; all other edge contacts are culled. `StandIn` contacts of `middle` count only if nothing else
+/// pushes.
 ///
 /// Let E be the square of the depth at the edge, and A and B the squares of the minimum translations of the
 /// two end spheres. With stiffness k, the stored energy is ¼k(E + A·B/E), or ¼k(A + B) if no edge counts. The
 /// weights follow from its derivatives: 1 − A·B/E² at the edge; those at the two ends are multiplied by B/E
 /// and A/E.
 pub(super) fn couple(ends: &mut [ContactCandidate], middle: &mut [ContactCandidate]) {
+    let pushes =
+        |contact: &ContactCandidate| contact.takes_part() && contact.status != CandidateStatus::StandIn;
+    if ends.iter().any(ContactCandidate::takes_part) || middle.iter().any(pushes) {
+        let stand_ins = middle.iter_mut().filter(|contact| contact.status == CandidateStatus::StandIn);
+        stand_ins.for_each(|contact| contact.status = CandidateStatus::Culled);
+    }
     let squares = [0, 1].map(|end| square_moved(ends, end));
     let deeper = |a: usize, b: usize| if middle[b].depth > middle[a].depth { b } else { a };
     let deepest = (0..middle.len()).filter(|&index| middle[index].takes_part()).reduce(deeper);

@@ -254,8 +254,16 @@ impl<'a> ElementPair<'a> {
     }
 
     /// Adds the contact of a cylinder's side with an edge between its end discs.
-    pub fn between_discs(&self, crossing: &Interference, found: &mut ChunkCandidates<'_>) {
-        self.emit(self.key_at(BETWEEN_DISCS), crossing, found, |out| out.share(true));
+    pub fn between_discs(
+        &self,
+        crossing: &Interference,
+        status: CandidateStatus,
+        found: &mut ChunkCandidates<'_>,
+    ) {
+        self.emit(self.key_at(BETWEEN_DISCS), crossing, found, |out| {
+            out.share(true);
+            out.status = status;
+        });
     }
 
     /// Adds the candidate of a contact under `key`; `adjust` sets the fields that depend on the tester.

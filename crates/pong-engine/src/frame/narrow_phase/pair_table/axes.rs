@@ -12,13 +12,13 @@ use pong_geometry::interference::capsule_polyhedron::CapsuleAtPiece;
 use pong_geometry::interference::ellipsoid_polyhedron::ellipsoid_piece;
 use pong_geometry::interference::end_disc::EndDisc;
 use pong_geometry::interference::line_segment_polyhedron::{AtWall, line_segment_piece};
-use pong_geometry::interference::side_edge::side_edge;
+use pong_geometry::interference::side_edge::{axis_passes_through, flat_way_out, side_edge, surely_overlaps};
 use pong_geometry::interference::sphere_polyhedron::sphere_inside_polyhedron;
 use pong_geometry::interference::triangle_features::{EdgeClass, TriangleView};
 use pong_geometry::interference::two_ended_bore::{capsule_bore, cylinder_bore, segment_bore};
 use pong_geometry::interference::two_ended_round::EndContact;
 use pong_geometry::interference::{Feature, Interference};
-use pong_geometry::primitive::{Capsule, Containment, Frustum, Polyhedron, PolyhedronFace, Sphere};
+use pong_geometry::primitive::{Capsule, Containment, Frustum, Polyhedron, Sphere};
 
 /// Adds the contacts of a capsule with a piece of a body: those of the end spheres, and those of the convex
 /// edges that the axis crosses between them.
@@ -112,6 +112,13 @@ fn side_of(frustum: &Frustum) -> Option<Capsule> {
     (first == last).then_some(Capsule { ends: frustum.ends, radius: first })
 }
 
+/// Returns `true` if the way over an edge is not longer than that over a face, `over_face`, m, but for rounding. Where it is
+/// longer, the edge lies below an end disc, as under a drum that stands on a block, and only the disc touches it.
+fn is_way_out(crossing: &Interference, over_face: f64) -> bool {
+    const SLACK: f64 = 1e-9;
+    crossing.depth <= over_face * (1.0 + SLACK)
+}
+
 /// Adds the contacts of a cylinder or a cone with a piece of a body: those of its end discs, and those of the convex
 /// edges that its side crosses between them.
 pub(super) fn frustum_polyhedron(
@@ -121,27 +128,53 @@ pub(super) fn frustum_polyhedron(
 ) {
     let TransformedPrimitive::Frustum(frustum) = a else { wrong_kind(a) };
     let polyhedron = &pair.body_b().polyhedra[pair.item_b.element as usize];
-    let is_apart = |face: &PolyhedronFace| -frustum.support(&-face.normal) >= face.offset;
-    if polyhedron.faces.iter().any(is_apart) {
-        return;
+    // Shortest way out over a face.
+    let mut over_face = f64::INFINITY;
+    for face in &polyhedron.faces {
+        let way_out = frustum.support(&-face.normal) + face.offset;
+        if way_out <= 0.0 {
+            return;
+        }
+        over_face = over_face.min(if face.active { way_out } else { f64::INFINITY });
     }
+    let mut is_pushed = false;
     for end in 0..2 {
         let disc = EndDisc { frustum, end };
         let Some(contact) = ellipsoid_piece(&frustum.flat_ellipsoid(end), polyhedron) else { continue };
         let Some(lowest) = disc.exact(&contact.interference) else { continue };
         let status = if contact.stands_in { CandidateStatus::StandIn } else { CandidateStatus::Front };
-        pair.emit(pair.key_at(end as u32), &lowest, found, |out| {
-            out.share(true);
-            out.status = status;
-        });
-        let Some(highest) = disc.highest(&lowest).filter(|_| lowest.feature.is_face()) else { continue };
-        let foot = highest.deepest_b + highest.normal_b * highest.depth;
-        let rims = polyhedron.rim(lowest.feature.index());
-        if rims.iter().all(|rim| rim.outward.dot(&(foot - rim.anchor)) <= 0.0) {
-            pair.emit(pair.key_at(end as u32 + 2), &highest, found, |out| out.share(true));
+        is_pushed = true;
+        let mut places = [Some(lowest), None];
+        if lowest.feature.is_face() {
+            let rims = polyhedron.rim(lowest.feature.index()).iter();
+            let is_edge = |neighbor: u32| polyhedron.faces[neighbor as usize].active;
+            let rims = rims.map(|rim| (rim.outward, rim.anchor, is_edge(rim.neighbor)));
+            let is_whole = polyhedron.planes().all_active && !contact.stands_in;
+            places = disc.on_face(&lowest, rims, is_whole);
+        }
+        for (place, end) in places.iter().zip([end, end + 2]) {
+            let Some(place) = place else { continue };
+            pair.emit(pair.key_at(end as u32), place, found, |out| {
+                out.share(true);
+                out.status = status;
+            });
         }
     }
-    let Some(side) = side_of(frustum) else {
+    let mut push_side = |crossing: &Interference| {
+        if is_way_out(crossing, over_face) {
+            is_pushed = true;
+            pair.between_discs(crossing, CandidateStatus::Front, found);
+        }
+    };
+    if let Some(side) = side_of(frustum) {
+        if let Some(at_piece) = CapsuleAtPiece::new(&side, polyhedron) {
+            at_piece.each_crossing(|crossing| {
+                if crossing.depth < side.radius {
+                    push_side(crossing);
+                }
+            });
+        }
+    } else {
         for (index, edge) in polyhedron.edges.iter().enumerate() {
             let Some(push) = &edge.push else { continue };
             let ends_b = edge.vertices.map(|vertex| polyhedron.vertices[vertex as usize].position);
@@ -153,17 +186,33 @@ pub(super) fn frustum_polyhedron(
                 free_outward_b: None,
                 feature,
             };
-            side_edge(frustum, &edge).iter().for_each(|crossing| pair.between_discs(crossing, found));
+            side_edge(frustum, &edge).iter().for_each(&mut push_side);
         }
-        return;
+    }
+    push_sunk_side(pair, (frustum, polyhedron), is_pushed, found);
+}
+
+/// Adds the contact of a side whose axis has sunk past an edge of a piece, and of a body that overlaps the piece without any
+/// other contact (`is_pushed` is false).
+fn push_sunk_side(
+    pair: &ElementPair<'_>,
+    (frustum, polyhedron): (&Frustum, &Polyhedron),
+    is_pushed: bool,
+    found: &mut ChunkCandidates<'_>,
+) {
+    let may_push = if is_pushed {
+        axis_passes_through(frustum, polyhedron)
+    } else {
+        surely_overlaps(frustum, polyhedron)
     };
-    if let Some(at_piece) = CapsuleAtPiece::new(&side, polyhedron) {
-        // An edge past which the axis has sunk does not push, as with cones and on triangles.
-        at_piece.each_crossing(|crossing| {
-            if crossing.depth < side.radius {
-                pair.between_discs(crossing, found);
-            }
-        });
+    if !may_push {
+        return;
+    }
+    let Some((way_out, is_sunk)) = flat_way_out(frustum, polyhedron) else { return };
+    if is_sunk || !is_pushed {
+        let is_whole = polyhedron.planes().all_active;
+        let status = if is_whole { CandidateStatus::Front } else { CandidateStatus::StandIn };
+        pair.between_discs(&way_out, status, found);
     }
 }
 
@@ -198,7 +247,11 @@ pub(super) fn frustum_triangle(
             Some(side) => capsule_edge(side, edge),
             None => side_edge(frustum, edge),
         };
-        crossing.iter().for_each(|crossing| pair.between_discs(crossing, found));
+        let over_face =
+            edge.normals_b.iter().map(|normal| frustum.support(&-normal) + normal.dot(&edge.ends_b[0]));
+        let over_face = over_face.fold(f64::INFINITY, f64::min);
+        let pushes = crossing.iter().filter(|crossing| is_way_out(crossing, over_face));
+        pushes.for_each(|crossing| pair.between_discs(crossing, CandidateStatus::Front, found));
     });
 }
 
