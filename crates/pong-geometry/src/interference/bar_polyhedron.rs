@@ -133,9 +133,16 @@ impl<'a> Bar<'a> {
 
     /// Returns the point of the solid nearest to a place of the axis, if it is nearer than `reach` (m).
     fn nearest(&self, at: f64, reach: f64) -> Nearest {
-        match sphere_beside_polyhedron(&Sphere { center: self.place(at), radius: reach }, self.polyhedron) {
+        let center = self.place(at);
+        match sphere_beside_polyhedron(&Sphere { center, radius: reach }, self.polyhedron) {
             Beside::Inside => Nearest::Inside,
             Beside::At(found) => Nearest::At(reach - found.depth, found.normal_b, found.feature),
+            // On an edge or a vertex, to rounding, no feature may count as the nearest one.
+            Beside::Far
+                if self.polyhedron.faces.iter().all(|face| face.height(&center) <= self.rounding()) =>
+            {
+                Nearest::Inside
+            }
             Beside::Far => Nearest::Far,
         }
     }
