@@ -4,8 +4,10 @@
 `core` needs numpy only and can be imported without Blender.
 """
 
-# Read by versions of Blender that know no extensions: they say what they are too old for. Others take the manifest.
+# Read by versions of Blender that know no extensions, and removed by the others, which take the manifest.
 bl_info = {"name": "Pong Model Toolkit", "version": (0, 1, 0), "blender": (4, 2, 0), "category": "Import-Export"}
+
+OLDEST_BLENDER = (4, 2, 0)
 
 
 def register():
@@ -27,9 +29,9 @@ def refuse_old_blender():
     """Raises `RuntimeError` in a version that does not install extensions, and so not the wheel `pong` in this one."""
     import bpy
 
-    if bpy.app.version < bl_info["blender"]:
-        wanted, found = (".".join(map(str, version)) for version in (bl_info["blender"], bpy.app.version))
-        raise RuntimeError(f"{bl_info['name']} needs Blender {wanted}, and this is {found}: install a newer Blender (blender/README.md)")
+    if bpy.app.version < OLDEST_BLENDER:
+        wanted, found = (".".join(map(str, version)) for version in (OLDEST_BLENDER, bpy.app.version))
+        raise RuntimeError(f"Pong Model Toolkit needs Blender {wanted}, and this is {found}: install a newer Blender (blender/README.md)")
 
 
 def unregister():

@@ -216,20 +216,20 @@ def roll_balls(run):
     yield "rise over the bar, of its height", bar / BAR, 0.5, 2.5
 
 
-def roll_ellipsoid(run):
-    level, ripple, beside, bar = roll(run, "ellipsoid")
+def roll_one_spring(run, kind):
+    level, ripple, beside, bar = roll(run, kind)
     yield "load on the level over weight", level, 0.995, 1.005
     yield "ripple of the load, of its mean", ripple, 0.0, 0.02
     yield "rise beside the stone, mm", beside * 1e3, -2.0, 2.0
     yield "rise over the bar, of its height", bar / BAR, 0.5, 2.5
+
+
+def roll_ellipsoid(run):
+    return roll_one_spring(run, "ellipsoid")
 
 
 def roll_cylinder(run):
-    level, ripple, beside, bar = roll(run, "cylinder")
-    yield "load on the level over weight", level, 0.995, 1.005
-    yield "ripple of the load, of its mean", ripple, 0.0, 0.02
-    yield "rise beside the stone, mm", beside * 1e3, -2.0, 2.0
-    yield "rise over the bar, of its height", bar / BAR, 0.5, 2.5
+    return roll_one_spring(run, "cylinder")
 
 
 def roll_sphere(run):

@@ -81,7 +81,7 @@ pub(super) fn descend(start: &Vec3, along: impl Fn(&Vec3) -> Along) -> Vec3 {
     const STEPS: usize = 60;
     /// Longest step, rad.
     const FARTHEST: f64 = 0.5;
-    newton(start, STEPS, [f64::EPSILON, FARTHEST], |normal| {
+    newton(start, STEPS, FARTHEST, |normal| {
         let Along { overlap, farthest_b, radii } = along(normal);
         let size = farthest_b.norm() + radii.amax();
         Local { value: overlap, slope_b: farthest_b - normal * overlap, bend: radii, less: overlap, size }
@@ -102,9 +102,8 @@ pub(super) struct Local {
 }
 
 /// Returns a unit vector at which a function is a local minimum, or at which it is not positive, or the one after
-/// `steps` of Newton's steps. Steps longer than `lengths[1]`, rad, are shortened; one that is not longer than `lengths[0]`
-/// is the last.
-pub(super) fn newton(start: &Vec3, steps: usize, lengths: [f64; 2], at: impl Fn(&Vec3) -> Local) -> Vec3 {
+/// `steps` of Newton's steps. Steps longer than `farthest`, rad, are shortened.
+pub(super) fn newton(start: &Vec3, steps: usize, farthest: f64, at: impl Fn(&Vec3) -> Local) -> Vec3 {
     /// Rounding of the value, relative to the size of its terms.
     const ROUNDING: f64 = 8.0 * f64::EPSILON;
     let (mut normal, mut damping) = (*start, 0.0);
@@ -128,12 +127,9 @@ pub(super) fn newton(start: &Vec3, steps: usize, lengths: [f64; 2], at: impl Fn(
         let step = u * ((uv * along_v - vv * along_u) / determinant)
             + v * ((uv * along_u - uu * along_v) / determinant);
         let length = step.norm();
-        let step = if length > lengths[1] { step * (lengths[1] / length) } else { step };
+        let step = if length > farthest { step * (farthest / length) } else { step };
         let next = (normal + step).normalize();
         let there = at(&next);
-        if length <= lengths[0] && lengths[0] > f64::EPSILON {
-            return next;
-        }
         let noise = ROUNDING * size;
         // Near the minimum the function is flat to rounding, and the slope decides.
         let flatter = there.value <= value + noise && there.slope_b.norm() < slope_b.norm();

@@ -158,9 +158,9 @@ impl Plate {
         const SHALLOW: f64 = 0.1;
         /// Cosine above which two of the likely normals lead to one minimum: two minima may be 4° apart.
         const NEAR: f64 = 0.9995;
-        /// Steps of a descent, and the length of a last step, rad.
-        const FEW: (usize, f64) = (24, 1e-4);
-        const MANY: (usize, f64) = (80, f64::EPSILON);
+        /// Steps of a descent.
+        const FEW: usize = 24;
+        const MANY: usize = 80;
         let first =
             [0.5, 0.0, 1.0].map(|at| of_frustum(&(a.ends[0] + (a.ends[1] - a.ends[0]) * at), b).normal_b);
         let back =
@@ -191,12 +191,11 @@ impl Plate {
         Some(self.descend(&least_of_many(all, SAME, energy, descend)?, MANY))
     }
 
-    /// Returns a normal at which the energy is a local minimum, or at which it is zero, or the one after `steps` steps or after
-    /// one that is not longer than `least`, rad.
-    fn descend(&self, start: &Vec3, (steps, least): (usize, f64)) -> Vec3 {
+    /// Returns a normal at which the energy is a local minimum, or at which it is zero, or the one after `steps` steps.
+    fn descend(&self, start: &Vec3, steps: usize) -> Vec3 {
         /// Longest step, rad.
         const FARTHEST: f64 = 0.3;
-        newton(start, steps, [least, FARTHEST], |n| {
+        newton(start, steps, FARTHEST, |n| {
             let here = self.along(n);
             let reach = here.places.iter().flatten().map(|place| place.place.amax()).fold(0.0, f64::max);
             let (slope_b, bend) = here.derivatives(n);
