@@ -44,6 +44,7 @@ use pong_geometry::Vec3;
 use pong_geometry::extension::PrimitiveRef;
 use pong_geometry::interference::two_capsules::TwoAxes;
 use pong_geometry::primitive::{PrimitiveKind, Ray};
+use pong_model::Item;
 use potential::Increment;
 use ray::RayHit;
 use shape::{AtContact, Shape};
@@ -268,16 +269,16 @@ impl<'a> Frame<'a> {
         Some((ends.map(|end| self.context.motion.x_ba.point(&end)), radius))
     }
 
-    /// A segment or a capsule and a polyhedron of one piece; `None` for other kinds.
+    /// A segment or a capsule and a convex solid; `None` for other kinds, and pieces of other bodies.
     fn bar_on_solid(&self, contact: &FrameContact) -> Option<BarOnSolid<'a>> {
         let found = &contact.found;
         let (ends, radius) = self.bar(contact)?;
-        let PrimitiveRef::Polyhedron(solid) = self.context.body_b.element(found.kind_b, found.element_b)
-        else {
+        if found.kind_b != PrimitiveKind::Polyhedron {
             return None;
-        };
-        let is_piece = !solid.planes().all_active || self.context.body_b.is_joint(found.key.shell_b);
-        (!is_piece).then_some(BarOnSolid { ends_b: ends, radius, solid })
+        }
+        let item = Item { primitive: found.primitive_b, element: found.element_b };
+        let (_, solid) = self.context.body_b.convex_solid(item)?;
+        Some(BarOnSolid { ends_b: ends, radius, solid })
     }
 
     /// Axes of a segment or a capsule and a capsule, with the radius of A; `None` for other kinds.

@@ -181,7 +181,7 @@ fn a_capsule_that_lies_or_crosses_carries_its_spring_and_a_tip_half_of_it() {
 }
 
 /// A capsule that lies across a box, with both ends past its sides, so deep that its axis is below the face:
-/// it is held as on the face, and on two pieces by half as much, however rounding decides the boundary cases of the face.
+/// it is held as on the face, by one piece and by two, however rounding decides the boundary cases of the face.
 #[test]
 fn a_capsule_sunk_in_along_a_face_is_held_as_on_it() {
     let mut random = Random(77);
@@ -194,12 +194,12 @@ fn a_capsule_sunk_in_along_a_face_is_held_as_on_it() {
             pieces.map(|(name, z, wall)| box_polyhedron(name, [0.0, 0.0, z], [0.5, 0.4, 0.15], wall));
         let turn = random.orientation();
         let above = turn * Vec3::new(0.0, 0.0, 0.35 - depth);
-        for (b, share) in [(solid(), 1.0), (pieces.join(","), 0.5)] {
+        for b in [solid(), pieces.join(",")] {
             let mut rig = Rig::new(&part(&capsule), &part(&b));
             rig.place([at(above, turn), at(Vec3::zeros(), turn)]);
             rig.world.evaluate().unwrap();
             let force = turn.inverse() * rig.wrench(0).force;
-            let error = (force - Vec3::z() * (0.5 * K * share * depth)).norm();
+            let error = (force - Vec3::z() * (0.5 * K * depth)).norm();
             assert!(error < 1e-9 * K, "case {case}, {depth} deep: {force}");
         }
     }
@@ -224,7 +224,7 @@ fn a_plate_pushes_a_capsule_back_to_its_side() {
     }
 }
 
-/// A plate cut into triangles, and a box cut into pieces below what lies on one face, act like the uncut ones.
+/// A plate cut into triangles, and a box cut into pieces, act like the uncut ones.
 #[test]
 fn cuts_have_no_effect_on_a_capsule() {
     let tilted = Quat::from_scaled_axis(Vec3::new(0.3, -0.2, 0.5));
@@ -246,7 +246,7 @@ fn cuts_have_no_effect_on_a_capsule() {
     for (name, bar, whole, cut, center, turn, limit) in [
         ("plate", LONG, plane.clone(), plate(false), normal * 0.09, 0.02, 1e-9),
         ("plate in single precision", LONG, plane, plate(true), normal * 0.09, 0.02, 1e-3),
-        ("box", SHORT, solid(), pieces, Vec3::new(0.1, 0.05, 0.38), 0.2, 1e-9),
+        ("box", LONG, solid(), pieces, Vec3::new(0.1, 0.05, 0.38), 0.2, 1e-9),
     ] {
         let mut rigs = [whole, cut].map(|b| Rig::new(&part(bar), &part(&b)));
         let mut random = Random(7);

@@ -149,15 +149,19 @@ fn known_limits_are_noted_by_the_kinds_that_meet() {
     let ball = "Sphere(name: \"s\", center: (0,0,0), radius: 0.1)";
     let corner = "Point(name: \"t\", position: (1,0,0))";
     let cornered = format!("{corner}, {solid}");
-    let halves = [("l", -0.5, "5"), ("r", 0.5, "4")];
-    let pieces =
-        halves.map(|(name, x, wall)| box_polyhedron(name, [x, 0.0, 0.0], [0.5, 0.4, 0.3], wall)).join(",");
+    let boxes = [("l", -0.5, 0.0, "5"), ("r", 0.5, 0.0, "4,1"), ("t", 0.5, 0.6, "0")];
+    let pieces = boxes.map(|(name, x, z, walls)| box_polyhedron(name, [x, 0.0, z], [0.5, 0.4, 0.3], walls));
+    let (whole, pieces) = (
+        pieces[..1].join(",") + ", " + &box_polyhedron("r", [0.5, 0.0, 0.0], [0.5, 0.4, 0.3], "4"),
+        pieces.join(","),
+    );
     for (a, b, expected) in [
         (capsule, capsule, vec![]),
         (bar, capsule, vec![]),
         (&*pin(1.0), bar, vec![(2, "b LineSegment, a Cylinder")]),
         (capsule, &cone(0.05), vec![(2, "a Capsule, b Cone")]),
         (solid, capsule, vec![]),
+        (&whole, capsule, vec![]),
         (&pieces, capsule, vec![(2, "b Capsule, a Polyhedron")]),
         (&pin(0.04), bore, vec![(1, "a Cylinder, b Bore")]),
         (&pin(0.06), bore, vec![]),

@@ -29,8 +29,8 @@ pub(super) fn capsule_polyhedron(
 ) {
     let TransformedPrimitive::Capsule(capsule) = a else { wrong_kind(a) };
     let polyhedron = &pair.body_b().polyhedra[pair.item_b.element as usize];
-    if is_alone(pair, polyhedron) {
-        return capsule_on_solid(pair, capsule, polyhedron, found);
+    if let Some((pair, solid)) = pair.on_solid() {
+        return capsule_on_solid(&pair, capsule, solid, found);
     }
     let Some(at_piece) = CapsuleAtPiece::new(capsule, polyhedron) else { return };
     for ball in Ball::at_ends(&end_spheres(capsule)) {
@@ -39,13 +39,7 @@ pub(super) fn capsule_polyhedron(
     at_piece.each_crossing(|crossing| pair.between_ends(crossing, found));
 }
 
-/// Returns true for a polyhedron that is a whole surface: no face of it is internal, and its model does not declare one
-/// surface with other primitives.
-fn is_alone(pair: &ElementPair<'_>, polyhedron: &Polyhedron) -> bool {
-    polyhedron.planes().all_active && !pair.body_b().is_joint(pair.info_b().shell)
-}
-
-/// Adds the contacts of a capsule with a solid of one piece. An end whose centre is inside has the face by which it
+/// Adds the contacts of a capsule with a convex solid. An end whose centre is inside has the face by which it
 /// entered; once the axis is sunk in, only these faces, their neighbours and edges push.
 fn capsule_on_solid(
     pair: &ElementPair<'_>,
@@ -53,12 +47,15 @@ fn capsule_on_solid(
     polyhedron: &Polyhedron,
     found: &mut ChunkCandidates<'_>,
 ) {
+    if pair.is_done(found) {
+        return;
+    }
     let locals = &pair.body_a().capsules[pair.item_a.element as usize].ends;
     let keys = [0, 1].map(|end| pair.key_at(end));
     let entries = [0, 1].map(|end: usize| {
         let is_inside = polyhedron.contains(&capsule.ends[end]);
         let remembered = is_inside.then(|| pair.context.memory.under(&keys[end]))?;
-        let face = pair.entry_face(&remembered, &locals[end], &capsule.ends[end])?;
+        let face = pair.entry_face(polyhedron, &remembered, &locals[end], &capsule.ends[end])?;
         Some((face, remembered.range))
     });
     let entered: [Option<usize>; 2] = entries.map(|entry| entry.map(|(face, _)| face.pushes()));
@@ -280,8 +277,11 @@ pub(super) fn line_segment_polyhedron(
 ) {
     let TransformedPrimitive::Segment(segment) = a else { wrong_kind(a) };
     let polyhedron = &pair.body_b().polyhedra[pair.item_b.element as usize];
-    if is_alone(pair, polyhedron) {
-        return emit_shares(pair, segment, segment_solid(segment, polyhedron), found);
+    if let Some((pair, solid)) = pair.on_solid() {
+        return match pair.is_done(found) {
+            true => (),
+            false => emit_shares(&pair, segment, segment_solid(segment, solid), found),
+        };
     }
     for (end, found_there) in line_segment_piece(segment, polyhedron).iter().enumerate() {
         let Some((contact, at_wall)) = found_there else { continue };
