@@ -10,6 +10,7 @@
 //! * *Otherwise* the plane is that of a face, or touches B along an edge. Turned about a vertex, about the part of the
 //!   axis across the normal, it would store less.
 
+use super::bar_walk::Whereabouts;
 use super::capsule_polyhedron::{CapsuleAtPiece, each_edge_near};
 use super::line_segment_polyhedron::part_in_solid;
 use super::round_surface::ROUNDING;
@@ -40,25 +41,35 @@ pub fn capsule_solid(capsule: &Capsule, polyhedron: &Polyhedron, entered: &[usiz
         return [None; 2];
     }
     let bar = Bar::new(&capsule.ends, capsule.radius, polyhedron);
-    let at_ends = [-0.5, 0.5].map(|at| bar.nearest(at, capsule.radius));
-    let load = match bar.outside(&at_ends) {
-        Outside::Apart => None,
-        Outside::Load(load) => Some(load),
-        Outside::SunkIn => bar.sunk_in(entered),
-    };
-    match load {
-        Some(load) => bar.contacts(&load, bar.overlap(&load, &at_ends)),
-        None => [None; 2],
+    let first = bar.nearest(-0.5, capsule.radius);
+    if let Some(load) = bar.on_tip(-0.5, &first) {
+        return bar.contacts(&load, [-0.5; 2]);
     }
+    let second = bar.nearest(0.5, capsule.radius);
+    if let Some(load) = bar.on_tip(0.5, &second) {
+        return bar.contacts(&load, [0.5; 2]);
+    }
+    let at_ends = [first, second];
+    let (load, from) = match bar.outside(&at_ends) {
+        Outside::Apart => return [None; 2],
+        Outside::Load(load) => (load, (load.at, Some(load.feature))),
+        Outside::SunkIn => {
+            let Some(load) = bar.sunk_in(entered) else { return [None; 2] };
+            let part = part_in_solid(&LineSegment { ends: capsule.ends }, polyhedron);
+            let inside = part.map_or(load.at, |[from, to]| load.at.clamp(from - 0.5, to - 0.5));
+            (load, (inside, None))
+        }
+    };
+    bar.contacts(&load, bar.overlap(&load, &at_ends, from))
 }
 
 /// A bar of two half springs in B's frame.
-struct Bar<'a> {
+pub(super) struct Bar<'a> {
     ends: [Vec3; 2],
     /// Vector from end 0 to end 1, m.
-    along: Vec3,
+    pub(super) along: Vec3,
     radius: f64,
-    polyhedron: &'a Polyhedron,
+    pub(super) polyhedron: &'a Polyhedron,
 }
 
 /// Load on the plane of least energy.
@@ -81,6 +92,15 @@ enum Nearest {
     At(f64, Vec3, Feature),
     /// The distance exceeds the reach of the search.
     Far,
+}
+
+impl Nearest {
+    fn whereabouts(&self) -> Whereabouts {
+        match self {
+            Self::At(_, _, feature) => Some(*feature),
+            Self::Inside | Self::Far => None,
+        }
+    }
 }
 
 /// Outcome of the search for a load at a place outside.
@@ -118,7 +138,7 @@ impl<'a> Bar<'a> {
     }
 
     /// Returns a place of the axis, m.
-    fn place(&self, at: f64) -> Vec3 {
+    pub(super) fn place(&self, at: f64) -> Vec3 {
         if at <= 0.0 {
             self.ends[0] + self.along * (at + 0.5)
         } else {
@@ -147,99 +167,76 @@ impl<'a> Bar<'a> {
         }
     }
 
-    /// Returns the same; a search within the radius is fast, and most often enough.
-    fn nearest_soon(&self, at: f64, reach: f64) -> Nearest {
-        match self.nearest(at, self.radius) {
-            Nearest::Far if reach > self.radius => self.nearest(at, reach),
-            near => near,
-        }
+    /// Returns the load at an end that touches, if δ²/W falls from there.
+    fn on_tip(&self, at: f64, near: &Nearest) -> Option<Load> {
+        let Nearest::At(distance, normal_b, feature) = *near else { return None };
+        let depth = self.radius - distance;
+        let falls = normal_b.dot(&self.along) * (2.0 * at) <= -depth;
+        falls.then_some(Load { at, depth, normal_b, feature })
     }
 
-    /// Searches the place of most δ²/W, given the nearest points at the two ends within the radius.
+    /// Searches the place of most δ²/W, given the nearest points at the two ends within the radius: walks there from an
+    /// end that touches, or from the middle.
     fn outside(&self, at_ends: &[Nearest; 2]) -> Outside {
-        let load = |at: f64, distance: f64, normal_b: Vec3, feature: Feature| Load {
-            at,
-            depth: self.radius - distance,
-            normal_b,
-            feature,
+        let (start, way) = match at_ends {
+            [Nearest::Inside, Nearest::Inside] => return Outside::SunkIn,
+            [Nearest::Far, Nearest::Far] => match self.start_between() {
+                Some(start) => start,
+                None => return Outside::Apart,
+            },
+            [Nearest::Far, end] => ((0.5, end.whereabouts()), -1.0),
+            [end, _] => ((-0.5, end.whereabouts()), 1.0),
         };
-        // At an end that touches, if δ²/W falls from there.
-        for (at, near) in [-0.5, 0.5].into_iter().zip(at_ends) {
-            if let Nearest::At(distance, normal, feature) = *near
-                && normal.dot(&self.along) * (2.0 * at) <= distance - self.radius
-            {
-                return Outside::Load(load(at, distance, normal, feature));
-            }
-        }
-        // Both ends over one face.
-        if let [Nearest::At(one, normal, feature), Nearest::At(other, _, same)] = *at_ends
-            && feature == same
-            && feature.is_face()
-        {
-            let depths = [self.radius - one, self.radius - other];
-            return Outside::Load(self.on_plane(depths, normal, feature));
-        }
-        let (start, reach) = match at_ends {
-            [Nearest::At(..), Nearest::Far] => (-0.5, 0.0),
-            [Nearest::Far, Nearest::At(..)] => (0.5, 0.0),
-            _ => (0.0, 0.5),
-        };
-        match self.search(start, (self.radius + reach * self.along.norm()) * BEYOND_ROUNDING) {
-            (at, Nearest::At(distance, normal, feature)) if distance < self.radius => {
-                match distance > self.rounding() {
-                    true => Outside::Load(load(at, distance, normal, feature)),
-                    false => Outside::SunkIn,
-                }
-            }
-            (_, Nearest::Inside) => Outside::SunkIn,
-            _ => Outside::Apart,
+        // Inside, the place of least W.
+        let goal = |here: Whereabouts| here.map_or(0.0, |feature| self.best_for(feature));
+        let (at, Some(feature)) = self.walk(start, way, goal) else { return Outside::SunkIn };
+        let (distance, normal_b) = self.beside(feature, at);
+        if distance >= self.radius {
+            Outside::Apart
+        } else if distance <= self.rounding() {
+            Outside::SunkIn
+        } else {
+            Outside::Load(Load { at, depth: self.radius - distance, normal_b, feature })
         }
     }
 
-    /// Searches the place of most δ²/W, or of least distance if nothing touches: at each place, for the feature that is
-    /// nearest there, the place that would be best if there were no other, between places that are known to be on
-    /// either side. `reach` (m) is enough for the first place if anything touches.
-    fn search(&self, start: f64, reach: f64) -> (f64, Nearest) {
-        const STEPS: usize = 80;
-        let (mut low, mut high) = (-0.5, 0.5);
-        let (mut at, mut reach) = (start, reach);
-        // Feature for which the place is the best, and length of the last step.
-        let (mut asked, mut last) = (None, 1.0);
-        for _ in 1..STEPS {
-            let near = self.nearest_soon(at, reach);
-            let (value, next, feature, away) = match near {
-                Nearest::Far => return (at, near),
-                Nearest::Inside => (at, 0.0, None, 0.0),
-                Nearest::At(distance, normal, feature) => {
-                    let pull = 4.0 * (self.radius - distance).max(0.0) / spread(at);
-                    let value = normal.dot(&self.along) + pull * at;
-                    let next = if asked == Some(feature) { at } else { self.best_for(feature, at) };
-                    (value, next, Some(feature), distance)
-                }
-            };
-            let is_at_end = (at == -0.5 && value > 0.0) || (at == 0.5 && value < 0.0);
-            if value == 0.0 || next == at || is_at_end || high - low <= 2.0 * f64::EPSILON {
-                return (at, near);
-            }
-            if value > 0.0 {
-                high = at
-            } else {
-                low = at
-            }
-            let is_inside = low <= next && next <= high && next != low && next != high;
-            let is_end = (next == 0.5 && high == 0.5) || (next == -0.5 && low == -0.5);
-            let takes = (is_inside && (next - at).abs() <= 0.5 * last) || is_end;
-            (asked, last) =
-                (feature.filter(|_| takes), if takes { (next - at).abs() } else { 0.5 * (high - low) });
-            let next = if takes { next } else { 0.5 * (low + high) };
-            reach = (away + (next - at).abs() * self.along.norm()) * BEYOND_ROUNDING + self.rounding();
-            at = next;
+    /// Returns a place between the ends, where it is, and the way to the load (±1), if neither end touches; `None` if
+    /// nothing touches.
+    fn start_between(&self) -> Option<((f64, Whereabouts), f64)> {
+        // What touches between the ends comes within the radius of an edge, or passes through the solid.
+        let (mut start, mut is_near) = (None, false);
+        each_edge_near(&self.ends, self.radius, self.polyhedron, &mut |index| {
+            is_near = true;
+            start = start.or_else(|| self.over_edge(index));
+        });
+        if let Some(at) = start {
+            return Some((at, -at.0.signum()));
         }
-        (at, self.nearest(at, reach))
+        if !is_near && part_in_solid(&LineSegment { ends: self.ends }, self.polyhedron).is_none() {
+            return None;
+        }
+        match self.nearest(0.0, (self.radius + 0.5 * self.along.norm()) * BEYOND_ROUNDING) {
+            Nearest::Far => None,
+            Nearest::Inside => Some(((0.0, None), 1.0)),
+            Nearest::At(_, normal, feature) => {
+                Some(((0.0, Some(feature)), if normal.dot(&self.along) > 0.0 { -1.0 } else { 1.0 }))
+            }
+        }
     }
 
-    /// Returns the place of most δ²/W for one feature alone, a plane, a line or a point, near `from`.
-    fn best_for(&self, feature: Feature, from: f64) -> f64 {
+    /// Returns the place nearest to the line of an edge, if the edge is what is nearest to it.
+    fn over_edge(&self, index: usize) -> Option<(f64, Whereabouts)> {
+        let (edge, feature) = (&self.polyhedron.edges[index], Feature::edge(index));
+        let Line { foot, .. } = self.line(feature)?;
+        let [from, to] = edge.vertices.map(|vertex| self.polyhedron.vertices[vertex as usize].position);
+        let (arm, back) = (self.place(foot) - from, self.place(foot) - to);
+        let is_beside = edge.push?.outwards.iter().all(|outward| outward.dot(&arm) >= 0.0);
+        let is_along = edge.direction.dot(&arm) >= 0.0 && edge.direction.dot(&back) <= 0.0;
+        (foot.abs() < 0.5 && is_beside && is_along).then_some((foot, Some(feature)))
+    }
+
+    /// Returns the place of most δ²/W for one feature alone, a plane, a line or a point; if none touches, the nearest one.
+    fn best_for(&self, feature: Feature) -> f64 {
         let Some(Line { square, foot, height }) = self.line(feature) else {
             let depths = self.depths_below(feature.index());
             if depths[0] <= 0.0 && depths[1] <= 0.0 {
@@ -247,11 +244,20 @@ impl<'a> Bar<'a> {
             }
             return self.on_plane(depths, Vec3::zeros(), feature).at;
         };
-        zero_of_rising(from, |at| {
+        let depth_at = |at: f64| {
             let beyond = at - foot;
             let distance = (height + square * beyond * beyond).sqrt();
+            (beyond, distance, self.radius - distance)
+        };
+        // Shallow contacts have the load close to the nearest place.
+        let nearest = foot.clamp(-0.5, 0.5);
+        if depth_at(nearest).2 <= 0.0 {
+            return nearest;
+        }
+        zero_of_rising(nearest, |at| {
+            let (beyond, distance, depth) = depth_at(at);
             let lean = square * beyond / divisor(distance);
-            let (spread, depth) = (spread(at), (self.radius - distance).max(0.0));
+            let (spread, depth) = (spread(at), depth.max(0.0));
             let bend = (square - lean * lean).max(0.0) / divisor(distance);
             (lean + 4.0 * depth * at / spread, bend + 4.0 * depth / (spread * spread), at)
         })
@@ -406,65 +412,37 @@ impl<'a> Bar<'a> {
         is_between.then_some((energy, Load { at, depth, normal_b, feature: Feature::edge(index) }))
     }
 
-    /// Returns the part of the axis that is less than the radius away from the solid, as places from −½ to ½.
-    fn overlap(&self, load: &Load, at_ends: &[Nearest; 2]) -> [f64; 2] {
+    /// Returns the part of the axis that is less than the radius away from the solid, as places from −½ to ½. `from` is
+    /// one of its places.
+    fn overlap(&self, load: &Load, at_ends: &[Nearest; 2], from: (f64, Whereabouts)) -> [f64; 2] {
         [0, 1].map(|end| {
             let tip = [-0.5, 0.5][end];
+            let leaves = |here: Whereabouts| match here {
+                Some(feature) => self.leaves(feature, tip),
+                None => f64::INFINITY.copysign(tip),
+            };
             match at_ends[end] {
                 Nearest::Inside => tip,
                 Nearest::At(distance, ..) if distance < self.radius => tip,
                 _ if load.at == tip || load.at == -tip => load.at,
-                _ => self.leaves(load, tip),
+                _ => self.walk(from, 2.0 * tip, leaves).0,
             }
         })
     }
 
-    /// Returns the place where the axis leaves the reach of the solid on its way from the load to an end: for the feature
-    /// that is nearest there, the place at which it is the radius away, until this is nearest at that place.
-    fn leaves(&self, load: &Load, tip: f64) -> f64 {
-        const STEPS: usize = 60;
-        const ENOUGH: f64 = 1e-12;
-        // Places that are nearer than the radius, and farther.
-        let (mut inner, mut outer) = (load.at, tip);
-        let (mut asked, mut next) = (load.feature, self.leaves_feature(load.feature, tip));
-        for step in 0..STEPS {
-            let takes = (next - inner) * tip > 0.0 && (outer - next) * tip > 0.0 && step < 12;
-            let at = if takes { next } else { 0.5 * (inner + outer) };
-            // At the place that is searched the distance is the radius; from others the next one is half way.
-            let near = self.nearest(at, self.radius * BEYOND_ROUNDING + self.rounding());
-            let is_inner = match near {
-                Nearest::At(distance, _, feature) => {
-                    if takes && feature == asked {
-                        return at;
-                    }
-                    (asked, next) = (feature, self.leaves_feature(feature, tip));
-                    distance < self.radius
-                }
-                Nearest::Inside => true,
-                Nearest::Far => false,
-            };
-            if is_inner {
-                inner = at
-            } else {
-                outer = at
-            }
-            if (outer - inner).abs() <= ENOUGH {
-                break;
-            }
-        }
-        0.5 * (inner + outer)
-    }
-
     /// Returns the place at which a feature alone is the radius away, towards an end.
-    fn leaves_feature(&self, feature: Feature, tip: f64) -> f64 {
+    fn leaves(&self, feature: Feature, tip: f64) -> f64 {
         match self.line(feature) {
             Some(Line { square, foot, height }) => {
                 let half = (self.radius * self.radius - height).max(0.0) / divisor(square);
                 foot + half.sqrt().copysign(tip)
             }
             None => {
-                let depths = self.depths_below(feature.index());
-                depths[0] / divisor(depths[0] - depths[1]) - 0.5
+                let [first, second] = self.depths_below(feature.index());
+                match (second - first) * tip < 0.0 {
+                    true => first / divisor(first - second) - 0.5,
+                    false => f64::INFINITY.copysign(tip),
+                }
             }
         }
     }

@@ -8,6 +8,7 @@ mod axis_approach;
 pub mod ball_bore;
 pub mod ball_round;
 pub mod bar_polyhedron;
+mod bar_walk;
 mod behind_triangle;
 pub mod capsule_edge;
 pub mod capsule_polyhedron;
