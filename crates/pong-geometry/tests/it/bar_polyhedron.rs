@@ -121,7 +121,8 @@ fn the_energy_is_the_least_on_a_plane_with_the_solid_behind_it() {
             touching += usize::from(stored > 0.0);
             if let Some(contact) = contacts(&a, &b).iter().flatten().next() {
                 let n = contact.interference.normal_b;
-                assert_near(on_plane(&a, &b, &n), stored, 1e-12 + 1e-9 * stored);
+                let off = on_plane(&a, &b, &n) - stored;
+                assert!(off.abs() <= 1e-12 + 1e-9 * stored, "case {case}: {off:e} of {stored}");
             }
         }
     }
@@ -156,7 +157,12 @@ fn the_wrench_is_minus_the_derivative_of_the_energy() {
             if (more - 2.0 * here + less).abs() > 1e-3 * force * STEP {
                 continue;
             }
-            let slope = (8.0 * (at(STEP) - at(-STEP)) - (at(2.0 * STEP) - at(-2.0 * STEP))) / (12.0 * STEP);
+            let slope_by = |h: f64| (8.0 * (at(h) - at(-h)) - (at(2.0 * h) - at(-2.0 * h))) / (12.0 * h);
+            let slope = slope_by(STEP);
+            // Where the place of the load comes into another region, the curvature steps.
+            if (slope - slope_by(2.0 * STEP)).abs() > 3e-7 * force {
+                continue;
+            }
             let part = if k < 3 { found.force[k] } else { found.moment[k - 3] };
             let off = (part + slope).abs() / force;
             assert!(off < 1e-6, "case {case}, {k}: {part} {slope} {a:?}");
