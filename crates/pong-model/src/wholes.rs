@@ -8,8 +8,8 @@ use pong_geometry::Vec3;
 use pong_geometry::primitive::{Polyhedron, PolyhedronFace, PrimitiveKind};
 use std::collections::BTreeMap;
 
-/// Returns the convex solids of a movable group that consist of several pieces of one surface, by shell. A declared
-/// surface is none, nor are pieces of different groups or with different surface entries.
+/// Returns the convex solids of a movable group that consist of several pieces, by shell. A declared surface is none, nor
+/// are pieces with different surface entries.
 pub(crate) fn wholes(body: &MovableGroup) -> Vec<Whole> {
     let mut shells: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
     for (index, info) in body.primitives.iter().enumerate() {
@@ -19,11 +19,8 @@ pub(crate) fn wholes(body: &MovableGroup) -> Vec<Whole> {
     }
     let whole = |(shell, pieces): (u32, Vec<usize>)| {
         let [first, others @ ..] = &pieces[..] else { return None };
-        let of = |index: &usize| {
-            let info = &body.primitives[*index];
-            (info.path.rsplit_once('/').map(|(group, _)| group), info.surface)
-        };
-        if others.is_empty() || others.iter().any(|other| of(other) != of(first)) {
+        let surface = |index: &usize| body.primitives[*index].surface;
+        if others.is_empty() || others.iter().any(|other| surface(other) != surface(first)) {
             return None;
         }
         let solids =

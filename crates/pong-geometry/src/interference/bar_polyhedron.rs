@@ -367,12 +367,17 @@ impl<'a> Bar<'a> {
         if foot.abs() >= 0.5 || !push.normals.iter().any(leans) {
             return None;
         }
+        // From the axis to the edge; out of the solid if they meet, to rounding.
         let mut away = edge.direction.cross(&along).normalize();
-        let mut height = away.dot(&from_middle);
-        let is_inward = away.dot(&(push.normals[0] + push.normals[1])) < 0.0;
-        if height < 0.0 || (is_inward && height <= self.rounding()) {
-            (away, height) = (-away, height.abs());
+        let height = away.dot(&from_middle);
+        let is_back = match height.abs() <= self.rounding() {
+            true => away.dot(&(push.normals[0] + push.normals[1])) < 0.0,
+            false => height < 0.0,
+        };
+        if is_back {
+            away = -away;
         }
+        let height = height.abs();
         if (self.radius + height) * (self.radius + height) >= most {
             return None;
         }

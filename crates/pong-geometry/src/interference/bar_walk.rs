@@ -43,11 +43,13 @@ impl Bar<'_> {
     ) -> (f64, Whereabouts) {
         // Far more than the regions along any axis.
         const STEPS: usize = 10_000;
+        const NEAR: f64 = 8.0 * f64::EPSILON;
         let (mut at, mut here) = start;
         for _ in 0..STEPS {
             let ahead = ((goal(here) - at) * way).max(0.0).min(0.5 - at * way);
             let exit = self.exit(here, at, way);
-            if ahead <= exit.away {
+            // At an edge through which the axis passes, both are rounding: the region beyond decides.
+            if ahead + NEAR < exit.away {
                 let end = at + way * ahead;
                 return (if ahead == 0.5 - at * way { 0.5 * way } else { end }, here);
             }

@@ -194,6 +194,30 @@ fn paths_gain_and_lose_nothing() {
     assert!(touching > long_samples(70, 30_000), "{touching}");
 }
 
+/// An axis that passes exactly through an edge stores what it stores a little beside: rounding decides nothing.
+#[test]
+fn an_axis_through_an_edge_is_held_by_it() {
+    let mut random = Random::new(35, 0, 0);
+    let solids = solids();
+    for case in 0..long_samples(600, 6000) {
+        let b = &solids[case as usize % solids.len()];
+        let edge = &b.edges[random.below(b.edges.len())];
+        let push = edge.push.unwrap();
+        let [from, to] = edge.vertices.map(|vertex| b.vertices[vertex as usize].position);
+        let place = from.lerp(&to, random.between(0.1, 0.9));
+        let out = push.normals[0].lerp(&push.normals[1], random.between(0.1, 0.9)).normalize();
+        let along = random.across(&out) * random.between(0.2, 1.0);
+        let at = random.between(-0.4, 0.4);
+        let ends = [place - along * (0.5 + at), place + along * (0.5 - at)];
+        let a = Capsule { ends, radius: random.log_between(0.02, 0.2) };
+        let stored = energy(&a, b);
+        for by in [-1e-9, 1e-9] {
+            let beside = energy(&moved(&a, &(out * by), &Vec3::zeros()), b);
+            assert!((beside - stored).abs() < 1e-6 * stored, "case {case}: {stored} {beside} {a:?}");
+        }
+    }
+}
+
 /// Flat, on a tip, overhanging, over a rail, across an edge.
 #[test]
 fn known_cases_carry_what_the_rule_says() {
