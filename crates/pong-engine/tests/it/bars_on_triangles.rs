@@ -72,7 +72,7 @@ fn a_bar_carries_what_its_two_ends_store() {
     for n in [1, 5] {
         let mut rig = Rig::new(&bar(1.0), &plate(n));
         let whole = PAIR * DEPTH;
-        for over in [0.1, 0.3, 0.5, 0.7, 0.9, 1.0] {
+        for over in [0.0, 0.1, 0.3, 0.5, 0.7, 0.9, 1.0] {
             let x = 1.5 - over;
             let (wrench, stored) = lie(&mut rig, x, 0.0);
             let rest: f64 = 1.0 - over;
@@ -94,9 +94,6 @@ fn a_bar_carries_what_its_two_ends_store() {
             (wrench.force - Vec3::z() * whole).norm() + wrench.moment.norm() < 1e-9 * whole,
             "{wrench:?}"
         );
-        // Its end exactly over the rim.
-        let (wrench, _) = lie(&mut rig, 1.5, 0.0);
-        assert!((wrench.force - Vec3::z() * (0.5 * whole)).norm() < 1e-9 * whole, "{}", wrench.force);
         let lifted = Vec3::new(0.0, 0.0, RADIUS - DEPTH + 0.5 * 0.3_f64.sin());
         let (wrench, _) = rig.set_at(lifted, Quat::from_scaled_axis(Vec3::y() * 0.3));
         assert!((wrench.force - Vec3::z() * (0.5 * whole)).norm() < 1e-9 * whole, "{}", wrench.force);

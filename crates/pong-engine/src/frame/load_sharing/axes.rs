@@ -166,8 +166,7 @@ impl Bar<'_> {
                 let same = |contact: &&mut ContactCandidate| {
                     contact.takes_part() && (contact.key, contact.feature) == (key, place.feature)
                 };
-                let found =
-                    ends.iter_mut().chain(&mut *middle).chain(added.iter_mut().flatten()).find(same);
+                let found = ends.iter_mut().chain(&mut *middle).chain(added.iter_mut().flatten()).find(same);
                 let fresh = ContactCandidate {
                     key,
                     primitive_b: item.primitive,
