@@ -21,7 +21,8 @@ pub struct AxisPlace {
     pub along: f64,
     /// Depth δ > 0 there, m.
     pub depth: f64,
-    /// Part of the axis over a face, or less than the radius away from the line of an edge or from a vertex.
+    /// Part of the axis over a face, or less than the radius away from the line of an edge or from a vertex, as fractions
+    /// of its length.
     pub part: [f64; 2],
     /// The feature.
     pub feature: Feature,
@@ -37,7 +38,8 @@ impl AxisPlace {
     pub fn greatest_square(&self, axis: &Vec3) -> f64 {
         let at = |along: f64| {
             let depth = self.depth - self.normal_b.dot(axis) * (along - self.along);
-            depth.max(0.0).powi(2) / (0.5 + 2.0 * (along - 0.5).powi(2))
+            let (depth, from_middle) = (depth.max(0.0), along - 0.5);
+            depth * depth / (0.5 + 2.0 * from_middle * from_middle)
         };
         if !self.feature.is_face() {
             return at(self.along);
