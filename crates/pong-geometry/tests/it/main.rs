@@ -41,4 +41,5 @@ mod segment_all_faces;
 mod segment_grazing;
 mod sphere_triangle_pairs;
 mod two_capsules;
+mod two_ended_round;
 mod two_frusta;
