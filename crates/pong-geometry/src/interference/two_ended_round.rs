@@ -131,8 +131,7 @@ impl<'a> BarOnFrustum<'a> {
                 deepest_b: self.place(overlap[end]) - load.normal_b * self.radius,
                 feature: load.feature,
             };
-            (shares[end] > 0.0)
-                .then(|| EndContact { interference, share: 2.0 * shares[end] / load.spread() })
+            (shares[end] > 0.0).then(|| EndContact { interference, share: 2.0 * shares[end] / load.spread() })
         })
     }
 
@@ -240,7 +239,8 @@ impl<'a> BarOnFrustum<'a> {
         let arm = self.place(from) - self.frustum.ends[0];
         let (height, climb) = (axis.dot(&arm), axis.dot(&self.along_b));
         let (beside, across) = (arm - axis * height, self.along_b - axis * climb);
-        let mut way = (tip - from).abs();
+        let whole = (tip - from).abs();
+        let mut way = whole;
         let sign = tip.signum();
         let forward = climb * sign;
         if forward != 0.0 {
@@ -263,7 +263,7 @@ impl<'a> BarOnFrustum<'a> {
                 }
             }
         }
-        from + sign * way
+        if way < whole { from + sign * way } else { tip }
     }
 
     /// Returns the derivative of the normal with the place of the load on B's side, 1/m; `None` where the axis passes

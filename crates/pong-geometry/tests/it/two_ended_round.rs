@@ -206,7 +206,10 @@ fn paths_gain_and_lose_nothing() {
             force.dot(&shift) + (moment - (shift * s).cross(&force)).dot(&turn)
         };
         let Some(gained) = gained(|s| energy(&place(s), &b), power, 1e-4) else { continue };
-        assert!(gained < 1e-9, "case {case}: {gained:e} of the largest stored {a:?} {b:?} {shift:?} {turn:?}");
+        assert!(
+            gained < 1e-9,
+            "case {case}: {gained:e} of the largest stored {a:?} {b:?} {shift:?} {turn:?}"
+        );
         worst = worst.max(gained);
         touching += 1;
     }
@@ -225,7 +228,11 @@ fn known_cases_carry_what_the_rule_says() {
         for (from, to) in [(-1.0, 1.0), (-0.7, 0.9), (-0.1, 0.2), (-0.2, 0.6)] {
             let found = wrench(&bar([[from, 0.1, top], [to, 0.1, top]], radius), &drum);
             assert_near(found.force.z, depth, 1e-12);
-            assert!((found.moment.y + 0.5 * (from + to) * depth).abs() < 1e-12, "{from} {to}: {}", found.moment.y);
+            assert!(
+                (found.moment.y + 0.5 * (from + to) * depth).abs() < 1e-12,
+                "{from} {to}: {}",
+                found.moment.y
+            );
         }
         // Beside the middle by x of the length: k/(1 + 4x²) at the rim.
         let found = wrench(&bar([[0.0, 0.0, top], [2.0, 0.0, top]], radius), &drum);

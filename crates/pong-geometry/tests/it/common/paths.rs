@@ -36,4 +36,3 @@ fn work(at: &impl Fn(f64) -> f64, [from, to]: [f64; 2], power: [f64; 3], depth: 
     work(at, [from, middle], halves[0], depth - 1, limit)
         + work(at, [middle, to], halves[1], depth - 1, limit)
 }
-
