@@ -28,9 +28,9 @@ pub(super) fn moves_on_round(bar: &BarOnFrustum<'_>, radius: f64, end: usize) ->
         spread,
         spreads: goes * (8.0 * at),
         depth: -(normal.transpose() * vector),
-        normal,
+        normal_b: normal,
         turned: free * vector,
-        along,
+        along_b: along,
         radius,
     };
     let of_overlap =

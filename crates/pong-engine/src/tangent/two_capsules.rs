@@ -49,9 +49,9 @@ pub(super) fn moves_at_end(axes: &TwoAxes, radius: f64, end: usize) -> Option<Mo
         spread,
         spreads,
         depth: -(normal.transpose() * vector),
-        normal,
+        normal_b: normal,
         turned,
-        along,
+        along_b: along,
         radius,
     };
     let of_overlap =
@@ -70,10 +70,10 @@ pub(super) struct MovingLoad {
     /// Derivatives of the depth.
     pub depth: RowVector6<f64>,
     /// Normal and its derivatives.
-    pub normal: Vec3,
+    pub normal_b: Vec3,
     pub turned: Matrix3x6<f64>,
     /// Vector along A's axis, m.
-    pub along: Vec3,
+    pub along_b: Vec3,
     /// Radius of A, m.
     pub radius: f64,
 }
@@ -98,9 +98,9 @@ impl MovingLoad {
             (0.5, RowVector6::zeros())
         };
         let at_contact = displacement_slopes(place_b);
-        let deepest = at_contact + self.along * of_overlap[end] - self.turned * self.radius;
+        let deepest = at_contact + self.along_b * of_overlap[end] - self.turned * self.radius;
         MovesAtEnd {
-            pressing: -(self.normal.transpose() * at_contact),
+            pressing: -(self.normal_b.transpose() * at_contact),
             moves: Moves { depth: self.depth, normal: self.turned, deepest },
             weight: (of_share - self.spreads * (share / self.spread)) * (2.0 / self.spread),
         }
@@ -136,7 +136,7 @@ pub(super) fn of_end_of_overlap(
     place: f64,
     away: &Vec3,
 ) -> RowVector6<f64> {
-    let rate = away.dot(&load.along);
+    let rate = away.dot(&load.along_b);
     if place.abs() >= 0.5 || rate == 0.0 {
         return RowVector6::zeros();
     }

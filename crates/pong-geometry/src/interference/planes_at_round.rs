@@ -20,10 +20,11 @@ use crate::{Mat3, Vec3, divisor};
 pub(super) struct Plane {
     /// F, m².
     pub energy: f64,
+    /// Unit normal, away from B.
     pub normal_b: Vec3,
     /// Depths of A's ends below it, m; negative above.
     pub depths: [f64; 2],
-    /// What it touches.
+    /// Feature that it touches.
     pub feature: Feature,
 }
 
@@ -36,8 +37,11 @@ impl Plane {
 
 /// The bar and the solid.
 pub(super) struct BarAtPlanes<'a> {
-    pub ends: &'a [Vec3; 2],
+    /// Ends of A's axis, m.
+    pub ends_b: &'a [Vec3; 2],
+    /// Radius of A, m.
     pub radius: f64,
+    /// The solid B.
     pub frustum: &'a Frustum,
 }
 
@@ -60,8 +64,8 @@ impl BarAtPlanes<'_> {
         const SHALLOW: f64 = 0.1;
         let axis = self.frustum.axis;
         let mut best = self.plane(&-axis, Feature::face(1)).or(self.plane(&axis, Feature::face(2)));
-        let along = self.ends[1] - self.ends[0];
-        let arms = self.ends.map(|end| end - self.frustum.ends[0]);
+        let along = self.ends_b[1] - self.ends_b[0];
+        let arms = self.ends_b.map(|end| end - self.frustum.ends[0]);
         let around = Across::new(&axis, &[arms[0] + arms[1], along, arms[0]]);
         for side in around.greatest(|side| self.at_wall(side)).into_iter().flatten() {
             best = best.or(self.plane(&self.frustum.wall_toward(&side).normalize(), Feature::face(0)));
@@ -87,7 +91,7 @@ impl BarAtPlanes<'_> {
         /// Cosine above which two normals lead to one minimum.
         const SAME: f64 = 0.95;
         let axis = self.frustum.axis;
-        let across = Across::new(&(self.ends[1] - self.ends[0]).normalize(), &[axis, *side]);
+        let across = Across::new(&(self.ends_b[1] - self.ends_b[0]).normalize(), &[axis, *side]);
         let around = lattice([axis, *side, axis.cross(side)]);
         // At the axis the support function of a rim has a kink.
         let is_smooth = |n: &Vec3| n.dot(&axis).abs() < 1.0 - UPRIGHT;
@@ -106,7 +110,7 @@ impl BarAtPlanes<'_> {
     }
 
     fn plane(&self, normal: &Vec3, feature: Feature) -> Plane {
-        let depths = self.ends.map(|end| self.radius + self.frustum.support_from(normal, &end));
+        let depths = self.ends_b.map(|end| self.radius + self.frustum.support_from(normal, &end));
         Plane { energy: energy_of(&depths), normal_b: *normal, depths, feature }
     }
 
@@ -116,7 +120,7 @@ impl BarAtPlanes<'_> {
         let normal = self.frustum.wall_toward(side);
         let turning = axis.cross(side) * wall[1];
         let mut sum = Reach { depth: 0.0, slope: 0.0 };
-        for end in self.ends {
+        for end in *self.ends_b {
             let arm = end - ends[0];
             let depth = (self.radius + radii[0] * wall[1] - normal.dot(&arm)).max(0.0);
             sum.depth -= depth * depth;
@@ -132,7 +136,7 @@ impl BarAtPlanes<'_> {
         let level = axis.cross(normal);
         let up = level.cross(axis);
         let place = ends[end] + up * (radii[end] / divisor(up.norm()));
-        let arms = self.ends.map(|end| place - end);
+        let arms = self.ends_b.map(|end| place - end);
         (arms.map(|arm| self.radius + normal.dot(&arm)), arms, level)
     }
 

@@ -6,12 +6,20 @@
 
 use super::axis_approach::nearest_of_segments;
 use super::round_surface::nearest_on_segment;
-use super::two_ended_round::EndContact;
 use super::{Feature, Interference};
 use crate::primitive::{Capsule, LineSegment};
 use crate::{Vec3, any_perpendicular, divisor};
 
-/// Contacts of a segment or a capsule with a capsule: at the two ends of their overlap on A's axis, which
+/// Contact of a body with two ends.
+#[derive(Clone, Copy, Debug)]
+pub struct EndContact {
+    /// Point, normal and depth.
+    pub interference: Interference,
+    /// Part of half a spring that acts in this contact, 0…2, no unit.
+    pub share: f64,
+}
+
+/// Contacts of a segment or a capsule with a round solid: at the two ends of their overlap on A's axis, which
 /// carry the load by the lever rule.
 pub type OverlapContacts = [Option<EndContact>; 2];
 

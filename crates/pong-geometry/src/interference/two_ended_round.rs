@@ -8,19 +8,11 @@
 
 use super::planes_at_round::{BarAtPlanes, Plane};
 use super::round_surface::{Nearest, ROUNDING, of_frustum};
+pub use super::two_capsules::EndContact;
 use super::two_capsules::{OverlapContacts, lever_shares, zero_of_rising};
 use super::{Feature, Interference};
 use crate::primitive::{Capsule, Frustum, LineSegment};
 use crate::{Mat3, Vec3, divisor};
-
-/// Contact of a body with two ends.
-#[derive(Clone, Copy, Debug)]
-pub struct EndContact {
-    /// Point, normal and depth.
-    pub interference: Interference,
-    /// Part of half a spring that acts in this contact, 0…2.
-    pub share: f64,
-}
 
 /// Tests a segment against a cylinder or a cone.
 pub fn segment_frustum(segment: &LineSegment, frustum: &Frustum) -> OverlapContacts {
@@ -45,11 +37,11 @@ pub struct BarOnFrustum<'a> {
 /// Load on the plane of the least energy.
 #[derive(Clone, Copy, Debug)]
 pub struct BarLoad {
-    /// Its place on the axis, −½ at end 0, ½ at end 1.
+    /// Its place on the axis, −½ at end 0, ½ at end 1, no unit.
     pub at: f64,
     /// Depth δ of this place below the plane, m.
     pub depth: f64,
-    /// Normal of the plane, away from B.
+    /// Unit normal of the plane, away from B.
     pub normal_b: Vec3,
     /// Feature that the plane touches: a face for the wall or an end, an edge for a rim.
     pub feature: Feature,
@@ -68,7 +60,7 @@ fn spread(at: f64) -> f64 {
     1.0 + 4.0 * at * at
 }
 
-/// What the search for the load finds at a place.
+/// A place that the search for the load visits.
 struct Visit {
     at: f64,
     nearest: Nearest,
@@ -168,7 +160,7 @@ impl<'a> BarOnFrustum<'a> {
             let Nearest { normal_b, feature, .. } = visit.nearest;
             return Some(BarLoad { at: visit.at, depth: visit.depth, normal_b, feature, touching: visit.at });
         }
-        let planes = BarAtPlanes { ends: &self.ends, radius: self.radius, frustum: self.frustum };
+        let planes = BarAtPlanes { ends_b: &self.ends, radius: self.radius, frustum: self.frustum };
         let Plane { normal_b, depths, feature, .. } = planes.least(rim_between(&inside))?;
         let (at, depth) = load_of(depths);
         Some(BarLoad { at, depth, normal_b, feature, touching: visit.at })

@@ -8,7 +8,7 @@ use pong_geometry::interference::Interference;
 use pong_geometry::interference::ball_round::{ball_capsule, ball_frustum};
 use pong_geometry::interference::two_capsules::{OverlapContacts, capsule_capsule, segment_capsule};
 use pong_geometry::interference::two_ended_round::{EndContact, capsule_frustum, segment_frustum};
-use pong_geometry::primitive::{Capsule, Frustum, LineSegment, Sphere};
+use pong_geometry::primitive::{Capsule, Frustum, LineSegment, Round, Sphere};
 use pong_geometry::{Transform, Vec3};
 use pong_testkit::{Random, samples};
 
@@ -122,6 +122,35 @@ fn wrench(contacts: &OverlapContacts, about: &Vec3) -> (Vec3, Vec3) {
         let one = normal_b * (0.5 * contact.share * depth);
         (force + one, moment + (deepest_b - about).cross(&one))
     })
+}
+
+/// The gap between an axis and a cylinder or a cone through which it passes, or on whose axis it lies, is minus the least
+/// translation that separates them.
+#[test]
+fn gaps_of_axes_in_cylinders_and_cones_are_the_least_translation() {
+    let mut random = Random::new(15, 0, 0);
+    let mut compared = 0;
+    for case in 0..samples(1000) {
+        let solid = random_solid(&mut random);
+        let Solid::Frustum(frustum) = solid else { continue };
+        let ends = match case % 4 {
+            0 => [(); 2]
+                .map(|()| frustum.ends[0] + frustum.axis * (frustum.length * random.between(-0.4, 1.4))),
+            _ => [solid.near(&mut random), solid.near(&mut random)],
+        };
+        let found = -frustum.gap(&ends).distance;
+        if found <= 0.0 {
+            continue;
+        }
+        let rod = Capsule { ends, radius: 0.0 };
+        let searched = depth_by_descent(&rod, &solid, 400, 5);
+        assert!(found < searched + 1e-9, "{found} {searched} {frustum:?} {ends:?}");
+        let n = frustum.gap(&ends).normal_b;
+        let out = solid.support(&n) + Bounded::support(&rod, &-n);
+        assert!((out - found).abs() < 1e-12, "{found} {out} {frustum:?} {ends:?}");
+        compared += 1;
+    }
+    assert!(compared > samples(300), "{compared}");
 }
 
 #[test]
