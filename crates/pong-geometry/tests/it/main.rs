@@ -35,6 +35,7 @@ mod overlap_timing;
 mod ray_round;
 mod rods_in_bores;
 mod round_parts;
+mod round_paths;
 mod round_plane;
 mod round_support;
 mod segment_all_faces;
