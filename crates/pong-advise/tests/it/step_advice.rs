@@ -485,6 +485,8 @@ fn a_drum_that_rocks_under_a_long_bar_is_within_the_bounds() {
             // ¼k·L², but for the force times the lever of the place below the drum's middle.
             assert!(is_near(found, 0.25 * K * 16.0, 1e-3), "{found}");
         }
-        assert!(acting.stiffness_rate > found / 0.1, "{shift}: {} < {}", acting.stiffness_rate, found / 0.1);
+        // The force times its lever is not counted, here or elsewhere.
+        let rate = found / 0.1 * (1.0 - 1e-4);
+        assert!(acting.stiffness_rate > rate, "{shift}: {} < {rate}", acting.stiffness_rate);
     }
 }

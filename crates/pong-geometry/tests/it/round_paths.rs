@@ -150,17 +150,18 @@ fn row(a: Kind, b: Kind, paths: usize) -> Option<Row> {
     Some(row)
 }
 
-/// No pair gains or loses more than 1e-9 of the largest energy on its way, but for those whose limits
-/// docs/theory.md, 2.8, tells.
+/// Of a thousand paths of a pair none but one may gain or lose more than 1e-9 of the largest energy on its way: in rare poses
+/// a search may end in another minimum (docs/theory.md, 2.8, limits).
 #[test]
 fn round_pairs_gain_and_lose_nothing() {
     use Kind::*;
     let kinds = [Sphere, Ellipsoid, Segment, Capsule, Cylinder, Cone, Plane];
     for (a, b) in kinds.iter().flat_map(|a| kinds.map(|b| (*a, b))) {
-        let Some(Row { paths, above, largest }) = row(a, b, long_samples(100, 100_000)) else { continue };
+        let Some(Row { paths, above, largest }) = row(a, b, long_samples(10, 10_000)) else { continue };
         println!(
             "{a:?}–{b:?}: {paths} paths, above 1e-9: {}, above 1e-3: {}, {largest:.1e} at most",
             above[0], above[1]
         );
+        assert!(above[0] * 1000 <= paths, "{a:?}–{b:?}: {largest:e}");
     }
 }

@@ -133,7 +133,7 @@ fn least_on_planes(a: &Capsule, b: &Frustum, few: usize) -> f64 {
 fn the_energy_is_the_least_on_a_plane_behind_the_solid() {
     let mut random = Random::new(31, 0, 0);
     let mut touching = [0; 2];
-    for case in 0..long_samples(600, 6000) {
+    for case in 0..long_samples(300, 6000) {
         let b = random_frustum(&mut random);
         let a = random_bar(&mut random, &b);
         let (stored, searched) = (energy(&a, &b), least_on_planes(&a, &b, 6));
@@ -142,7 +142,7 @@ fn the_energy_is_the_least_on_a_plane_behind_the_solid() {
         assert!(stored >= searched * 0.9 - 1e-12, "case {case}: {stored} {searched} {a:?} {b:?}");
         touching[usize::from(a.radius > 0.0)] += usize::from(stored > 0.0);
     }
-    assert!(touching.iter().all(|&count| count > long_samples(100, 1000)), "{touching:?}");
+    assert!(touching.iter().all(|&count| count > long_samples(50, 1000)), "{touching:?}");
 }
 
 /// Bar moved by a screw: translation and rotation vector.
@@ -195,7 +195,7 @@ fn the_wrench_is_minus_the_derivative_of_the_energy() {
 fn paths_gain_and_lose_nothing() {
     let mut random = Random::new(33, 0, 0);
     let (mut touching, mut worst) = (0, 0.0_f64);
-    for case in 0..long_samples(600, 100_000) {
+    for case in 0..long_samples(60, 10_000) {
         let b = random_frustum(&mut random);
         let a = random_bar(&mut random, &b);
         let (shift, turn) = (random.vector(0.3), random.vector(0.6));
@@ -214,7 +214,7 @@ fn paths_gain_and_lose_nothing() {
         touching += 1;
     }
     println!("{touching} paths, largest gain or loss {worst:.1e} of the largest stored");
-    assert!(touching > long_samples(200, 30_000), "{touching}");
+    assert!(touching > long_samples(30, 3_000), "{touching}");
 }
 
 /// On a drum's end over both sides of it, level along its side, crossing, on a tip.
@@ -333,7 +333,8 @@ fn contacts_lie_at_the_ends_of_the_overlap() {
 fn b_distance(b: &Frustum, place: &Vec3) -> f64 {
     let arm = place - b.ends[0];
     let along = b.axis.dot(&arm);
-    let side = (arm - b.axis * along).normalize();
+    let around = b.axis.cross(&Vec3::ith(b.axis.iamin(), 1.0)).normalize();
+    let side = (arm - b.axis * along).try_normalize(1e-9).unwrap_or(around);
     let height = |angle: f64| {
         let n = b.axis * angle.sin() + side * angle.cos();
         n.dot(place) - Bounded::support(b, &n)
