@@ -5,13 +5,14 @@
 //! |---|---|
 //! | `shape.rs` | radii of curvature of both surfaces at a contact |
 //! | `moves.rs`, `ray.rs` | derivatives of depth, normal and contact point with the relative pose |
-//! | `two_capsules.rs` | the same, and of the weights, where two bodies with two ends yield |
+//! | `two_capsules.rs`, `bar_on_round.rs` | the same, and of the weights, where two bodies with two ends yield, or one |
 //! | `sharing.rs` | derivatives of the weights of contacts that share a spring |
 //! | `friction.rs`, `contact.rs` | derivatives of the force of one contact |
 //! | `resistance.rs` | derivatives of the couple that resists rolling and spinning |
 //! | `potential.rs` | incremental potential of a step |
 //! | `blocks.rs` | sum over the contacts of two groups; common axes |
 
+mod bar_on_round;
 mod blocks;
 mod contact;
 mod friction;
@@ -34,12 +35,14 @@ use crate::frame::{FrameContact, FrameResults};
 use crate::law::{FrictionProps, NormalProps};
 use crate::seal::Direction;
 use crate::state::ContactRole;
+use bar_on_round::moves_on_round;
 use blocks::DirectionSlopes;
 use contact::Moving;
 use moves::{Moves, Touch};
 use nalgebra::RowVector6;
 use pong_geometry::extension::PrimitiveRef;
 use pong_geometry::interference::two_capsules::TwoAxes;
+use pong_geometry::interference::two_ended_round::BarOnFrustum;
 use pong_geometry::primitive::{PrimitiveKind, Ray};
 use potential::Increment;
 use ray::RayHit;
@@ -231,11 +234,8 @@ impl<'a> Frame<'a> {
         {
             return unknown(Missing::HostLaw);
         }
-        let known = match self.two_axes(contact) {
-            Some((axes, radius)) => {
-                let at_end = moves_at_end(&axes, radius, contact.found.key.end as usize);
-                at_end.map(|MovesAtEnd { moves, pressing, weight }| (moves, pressing, weight))
-            }
+        let known = match self.of_yielding_ends(contact) {
+            Some(at_end) => at_end.map(|MovesAtEnd { moves, pressing, weight }| (moves, pressing, weight)),
             None => self.moves(contact).map(|moves| (moves, moves.depth, RowVector6::zeros())),
         };
         let Some((moves, pressing, weight)) = known else { return unknown(Missing::Shapes) };
@@ -251,8 +251,9 @@ impl<'a> Frame<'a> {
         })
     }
 
-    /// Axes of a segment or a capsule and a capsule, with the radius of A; `None` for other kinds.
-    fn two_axes(&self, contact: &FrameContact) -> Option<(TwoAxes, f64)> {
+    /// Motion of a contact of a segment or a capsule with a round part, `Some(None)` where it has none; `None` for other
+    /// kinds.
+    fn of_yielding_ends(&self, contact: &FrameContact) -> Option<Option<MovesAtEnd>> {
         let (context, found) = (self.context, &contact.found);
         let element_a = context.body_a.element(self.kind_a(contact), found.element_a);
         let (ends, radius) = match element_a {
@@ -260,11 +261,15 @@ impl<'a> Frame<'a> {
             PrimitiveRef::Capsule(capsule) => (capsule.ends, capsule.radius),
             _ => return None,
         };
-        let PrimitiveRef::Capsule(b) = context.body_b.element(found.kind_b, found.element_b) else {
-            return None;
-        };
         let ends = ends.map(|end| context.motion.x_ba.point(&end));
-        Some((TwoAxes::new(&ends, radius, b), radius))
+        let end = found.key.end as usize;
+        match context.body_b.element(found.kind_b, found.element_b) {
+            PrimitiveRef::Capsule(b) => Some(moves_at_end(&TwoAxes::new(&ends, radius, b), radius, end)),
+            PrimitiveRef::Cylinder(b) | PrimitiveRef::Cone(b) => {
+                Some(moves_on_round(&BarOnFrustum::new(&ends, radius, b), radius, end))
+            }
+            _ => None,
+        }
     }
 
     fn moves(&self, contact: &FrameContact) -> Option<Moves> {

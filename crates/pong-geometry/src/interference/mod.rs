@@ -25,6 +25,7 @@ mod least_translation;
 pub mod line_segment_plane;
 pub mod line_segment_polyhedron;
 pub mod nearest_on_triangle;
+mod planes_at_round;
 pub mod point_ellipsoid;
 pub mod point_plane;
 pub mod point_polyhedron;

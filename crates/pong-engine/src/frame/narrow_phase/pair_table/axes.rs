@@ -286,9 +286,8 @@ pub(super) fn emit_halves<A>(
     }
 }
 
-/// Adds the contacts of a body with two ends on a round solid: of a segment or capsule at each end of the overlap and,
-/// on a cylinder or a cone, at the deepest point; of a cylinder or cone at places of its rims. Each contact has half a
-/// spring, and its share as weight.
+/// Adds the contacts of a body with two ends on a round solid: of a segment or capsule at each end of the overlap, of a
+/// cylinder or cone at places of its rims. Each contact has half a spring, and its share as weight.
 pub(super) fn emit_shares<A>(
     pair: &ElementPair<'_>,
     _: &A,
