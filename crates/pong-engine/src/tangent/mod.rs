@@ -5,7 +5,7 @@
 //! |---|---|
 //! | `shape.rs` | radii of curvature of both surfaces at a contact |
 //! | `moves.rs`, `ray.rs` | derivatives of depth, normal and contact point with the relative pose |
-//! | `two_capsules.rs`, `bar_on_round.rs` | the same, and of the weights, where two bodies with two ends yield, or one |
+//! | `two_capsules.rs`, `bar_on_round.rs`, `bars.rs` | the same, and of the weights, where bodies with two ends yield |
 //! | `sharing.rs` | derivatives of the weights of contacts that share a spring |
 //! | `friction.rs`, `contact.rs` | derivatives of the force of one contact |
 //! | `resistance.rs` | derivatives of the couple that resists rolling and spinning |
@@ -13,6 +13,7 @@
 //! | `blocks.rs` | sum over the contacts of two groups; common axes |
 
 mod bar_on_round;
+mod bars;
 mod blocks;
 mod contact;
 mod friction;
@@ -36,14 +37,17 @@ use crate::law::{FrictionProps, NormalProps};
 use crate::seal::Direction;
 use crate::state::ContactRole;
 use bar_on_round::moves_on_round;
+use bars::BarOnSolid;
 use blocks::DirectionSlopes;
 use contact::Moving;
 use moves::{Moves, Touch};
 use nalgebra::RowVector6;
+use pong_geometry::Vec3;
 use pong_geometry::extension::PrimitiveRef;
 use pong_geometry::interference::two_capsules::TwoAxes;
 use pong_geometry::interference::two_ended_round::BarOnFrustum;
 use pong_geometry::primitive::{PrimitiveKind, Ray};
+use pong_model::Item;
 use potential::Increment;
 use ray::RayHit;
 use shape::{AtContact, Shape};
@@ -251,8 +255,8 @@ impl<'a> Frame<'a> {
         })
     }
 
-    /// Motion of a contact of a segment or a capsule with a round part, `Some(None)` where it has none; `None` for other
-    /// kinds.
+    /// Motion of a contact of a segment or a capsule with a round part or a convex solid, `Some(None)` where it has none;
+    /// `None` for other kinds, and for pieces of other bodies.
     fn of_yielding_ends(&self, contact: &FrameContact) -> Option<Option<MovesAtEnd>> {
         let (context, found) = (self.context, &contact.found);
         let element_a = context.body_a.element(self.kind_a(contact), found.element_a);
@@ -267,6 +271,11 @@ impl<'a> Frame<'a> {
             PrimitiveRef::Capsule(b) => Some(moves_at_end(&TwoAxes::new(&ends, radius, b), radius, end)),
             PrimitiveRef::Cylinder(b) | PrimitiveRef::Cone(b) => {
                 Some(moves_on_round(&BarOnFrustum::new(&ends, radius, b), radius, end))
+            }
+            PrimitiveRef::Polyhedron(_) => {
+                let item = Item { primitive: found.primitive_b, element: found.element_b };
+                let (_, solid) = context.body_b.convex_solid(item)?;
+                Some(BarOnSolid { ends_b: ends, radius, solid }.moves_of(found))
             }
             _ => None,
         }
@@ -289,7 +298,7 @@ impl<'a> Frame<'a> {
             return self.moves_of_ray(&ray.carried(x_ba), found);
         }
         let on_edge = !found.feature.is_face();
-        // A segment that leaves a solid through a face may push along another line than that of the edge.
+        // A segment that leaves a piece through a face may push along another line than that of the edge.
         if on_edge && (kind_a, found.kind_b) == (PrimitiveKind::LineSegment, PrimitiveKind::Polyhedron) {
             return None;
         }

@@ -1,6 +1,7 @@
 //! Tests of the engine through its public interface.
 
 mod accounts;
+mod bars_on_pieces;
 mod beyond_range;
 mod bores;
 mod broad_phase;

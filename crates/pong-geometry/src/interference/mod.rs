@@ -7,6 +7,8 @@
 mod axis_approach;
 pub mod ball_bore;
 pub mod ball_round;
+pub mod bar_polyhedron;
+mod bar_walk;
 mod behind_triangle;
 pub mod capsule_edge;
 pub mod capsule_polyhedron;

@@ -300,6 +300,8 @@ pub(super) fn zero_of_rising<T>(start: f64, mut visit: impl FnMut(f64) -> (f64, 
             (low, known[0]) = (at, true);
         }
         let newton = at - value / divisor(slope);
+        // A step that rounding swallows goes just past the zero, or it is at a kink.
+        let newton = if (newton - at).abs() < ENOUGH { at - ENOUGH.copysign(value) } else { newton };
         let middle = 0.5 * (low + high);
         let shrinks = (newton - at).abs() <= 0.5 * steps[0];
         let next = if slope <= 0.0 || newton <= low {

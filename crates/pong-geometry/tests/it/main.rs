@@ -1,5 +1,6 @@
 //! Tests of the geometry: contacts, bounding volumes and lanes against independent answers.
 
+mod bar_polyhedron;
 mod bore_support;
 mod bores;
 mod bounding_conservative;

@@ -8,7 +8,7 @@ use pong_geometry::primitive::{Capsule, LineSegment};
 use pong_geometry::{Quat, Transform, Vec3, Wrench};
 use pong_testkit::{Random, assert_near, long_samples};
 
-fn capsule(ends: [[f64; 3]; 2], radius: f64) -> Capsule {
+pub fn capsule(ends: [[f64; 3]; 2], radius: f64) -> Capsule {
     Capsule { ends: ends.map(Vec3::from), radius }
 }
 
@@ -121,7 +121,7 @@ fn the_energy_is_the_least_on_a_plane_between_the_two() {
 }
 
 /// Capsule moved by a screw: translation and rotation vector.
-fn moved(a: &Capsule, shift: &Vec3, turn: &Vec3) -> Capsule {
+pub fn moved(a: &Capsule, shift: &Vec3, turn: &Vec3) -> Capsule {
     let turn = Quat::from_scaled_axis(*turn);
     Capsule { ends: a.ends.map(|end| turn * end + shift), radius: a.radius }
 }
