@@ -5,6 +5,7 @@
 //! function of the caller (`emit`) for each contact.
 
 mod axis_approach;
+pub mod axis_triangle;
 pub mod ball_bore;
 pub mod ball_round;
 pub mod bar_polyhedron;

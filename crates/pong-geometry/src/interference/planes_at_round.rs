@@ -11,7 +11,7 @@
 
 use super::Feature;
 use super::circles::{Across, Reach};
-use super::least_translation::{Local, lattice, least_of_many, newton};
+use super::least_translation::{Limits, Local, lattice, least_of_many, newton};
 use crate::primitive::Frustum;
 use crate::{Mat3, Vec3, divisor};
 
@@ -71,7 +71,7 @@ impl BarAtPlanes<'_> {
             best = best.or(self.plane(&self.frustum.wall_toward(&side).normalize(), Feature::face(0)));
         }
         if let Some((end, normal)) = likely {
-            let plane = best.or(self.at_bottom(end, &normal));
+            let plane = best.or(self.at_bottom(end, &normal, &[]));
             let depth = SHALLOW * self.frustum.radii[end].min(self.frustum.length);
             if plane.energy < depth * depth {
                 return (plane.energy > 0.0).then_some(plane);
@@ -97,16 +97,16 @@ impl BarAtPlanes<'_> {
         let is_smooth = |n: &Vec3| n.dot(&axis).abs() < 1.0 - UPRIGHT;
         let starts = across.directions().into_iter().chain(around).filter(is_smooth);
         let energy = |n: &Vec3| self.plane(n, Feature::edge(end)).energy;
-        let normal = least_of_many(starts, SAME, energy, |n| self.at_bottom(end, n).normal_b)?;
+        let to_minimum = |n: &Vec3, known: &[Vec3]| self.at_bottom(end, n, known).normal_b;
+        let normal = least_of_many(starts, SAME, energy, to_minimum)?;
         Some(self.plane(&normal, Feature::edge(end)))
     }
 
-    /// Returns the plane of a local minimum with the support function of one rim, by descent from a normal.
-    fn at_bottom(&self, end: usize, normal: &Vec3) -> Plane {
-        const STEPS: usize = 60;
-        /// Longest step, rad.
-        const FARTHEST: f64 = 0.3;
-        self.plane(&newton(normal, STEPS, FARTHEST, |n| self.near(end, n)), Feature::edge(end))
+    /// Returns the plane of a local minimum with the support function of one rim, by descent from a normal, or one beside a
+    /// minimum of `known`.
+    fn at_bottom(&self, end: usize, normal: &Vec3, known: &[Vec3]) -> Plane {
+        let limits = Limits { steps: 60, farthest: 0.3, enough: 0.0, known };
+        self.plane(&newton(normal, limits, |n| self.near(end, n)), Feature::edge(end))
     }
 
     fn plane(&self, normal: &Vec3, feature: Feature) -> Plane {

@@ -323,7 +323,7 @@ pub(super) fn zero_of_rising<T>(start: f64, mut visit: impl FnMut(f64) -> (f64, 
 }
 
 /// Returns the interval in which square·x² + 2·half·x + rest is not positive, if any.
-fn non_positive(square: f64, half: f64, rest: f64) -> Option<[f64; 2]> {
+pub(super) fn non_positive(square: f64, half: f64, rest: f64) -> Option<[f64; 2]> {
     let root = half * half - square * rest;
     (root >= 0.0).then(|| {
         let sum = -half - root.max(0.0).sqrt().copysign(half);
