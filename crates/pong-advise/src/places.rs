@@ -46,6 +46,13 @@ pub(crate) fn yield_at_ends(kind_a: PrimitiveKind, kind_b: PrimitiveKind) -> boo
     }
 }
 
+/// Returns true for kinds of which A alone yields at the ends of its axis (docs/theory.md, 2.8): no motion of either body
+/// meets more than half a spring at each end of A's axis, however far it overhangs.
+pub(crate) fn yields_on_round(kind_a: PrimitiveKind, kind_b: PrimitiveKind) -> bool {
+    matches!(kind_a, PrimitiveKind::LineSegment | PrimitiveKind::Capsule)
+        && matches!(kind_b, PrimitiveKind::Cylinder | PrimitiveKind::Cone)
+}
+
 pub(crate) type Compliances = BTreeMap<(PrimitiveKind, u32), Compliance>;
 
 /// Compliance at all primitives of a body, by kind and surface.

@@ -39,8 +39,8 @@ impl Slope {
 pub(super) fn weigh(kind_a: PrimitiveKind, contacts: &mut [Moving<'_>]) -> Option<()> {
     let kind_b = contacts[0].contact.found.kind_b;
     let two_ended = matches!(kind_a, Capsule | LineSegment);
-    // The derivatives of the weights of two capsules come with those of their places.
-    if two_ended && kind_b == Capsule {
+    // Where the ends of a bar yield, the derivatives of the weights come with those of their places.
+    if two_ended && (kind_b == Capsule || kind_b == Polyhedron && !contacts[0].contact.found.shares) {
         return Some(());
     }
     let on_flat = matches!(kind_b, Polyhedron | Triangle);

@@ -1,6 +1,7 @@
 //! Tests of the engine through its public interface.
 
 mod accounts;
+mod bars_on_pieces;
 mod bars_on_triangles;
 mod beyond_range;
 mod bores;

@@ -6,12 +6,20 @@
 
 use super::axis_approach::nearest_of_segments;
 use super::round_surface::nearest_on_segment;
-use super::two_ended_round::EndContact;
 use super::{Feature, Interference};
 use crate::primitive::{Capsule, LineSegment};
 use crate::{Vec3, any_perpendicular, divisor};
 
-/// Contacts of a segment or a capsule with a capsule: at the two ends of their overlap on A's axis, which
+/// Contact of a body with two ends.
+#[derive(Clone, Copy, Debug)]
+pub struct EndContact {
+    /// Point, normal and depth.
+    pub interference: Interference,
+    /// Part of half a spring that acts in this contact, 0…2, no unit.
+    pub share: f64,
+}
+
+/// Contacts of a segment or a capsule with a round solid: at the two ends of their overlap on A's axis, which
 /// carry the load by the lever rule.
 pub type OverlapContacts = [Option<EndContact>; 2];
 
@@ -292,6 +300,8 @@ pub(super) fn zero_of_rising<T>(start: f64, mut visit: impl FnMut(f64) -> (f64, 
             (low, known[0]) = (at, true);
         }
         let newton = at - value / divisor(slope);
+        // A step that rounding swallows goes just past the zero, or it is at a kink.
+        let newton = if (newton - at).abs() < ENOUGH { at - ENOUGH.copysign(value) } else { newton };
         let middle = 0.5 * (low + high);
         let shrinks = (newton - at).abs() <= 0.5 * steps[0];
         let next = if slope <= 0.0 || newton <= low {
