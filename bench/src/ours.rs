@@ -4,19 +4,18 @@
 use crate::pairs::{Answer, HALF_LENGTH, Mover, Queries, RADIUS, RAY, ROUND_HALF_LENGTH, SEMI_AXES, Target};
 use pong_geometry::interference::{
     Feature, Interference, ball_bore::ball_bore, ball_round::ball_capsule, ball_round::ball_frustum,
-    capsule_edge::ConvexEdge, capsule_edge::capsule_edge, capsule_polyhedron::CapsuleAtPiece,
-    ellipsoid_ellipsoid::ellipsoid_ellipsoid, ellipsoid_plane::ellipsoid_plane,
+    bar_polyhedron::capsule_solid, bar_polyhedron::segment_solid, capsule_edge::ConvexEdge,
+    capsule_edge::capsule_edge, ellipsoid_ellipsoid::ellipsoid_ellipsoid, ellipsoid_plane::ellipsoid_plane,
     ellipsoid_polyhedron::ellipsoid_polyhedron, ellipsoid_round::ellipsoid_capsule,
     ellipsoid_round::ellipsoid_frustum, ellipsoid_triangle::ellipsoid_triangle, end_disc::EndDisc,
-    line_segment_plane::line_segment_plane, line_segment_polyhedron::line_segment_polyhedron,
-    point_ellipsoid::point_ellipsoid, point_plane::point_plane, point_polyhedron::point_below_face,
-    point_polyhedron::shallowest_face, point_sphere::point_sphere, ray_bore::ray_bore, ray_plane::RayHit,
-    ray_plane::ray_plane, ray_polyhedron::ray_polyhedron, ray_round::ray_capsule, ray_round::ray_ellipsoid,
-    ray_round::ray_frustum, ray_round::ray_sphere, ray_triangle::ray_triangle, round_plane::capsule_plane,
-    round_plane::frustum_plane, side_edge::side_edge, sphere_ellipsoid::sphere_ellipsoid,
-    sphere_plane::sphere_plane, sphere_polyhedron::sphere_inside_polyhedron,
-    sphere_polyhedron::sphere_outside_polyhedron, sphere_sphere::sphere_sphere,
-    sphere_triangle::sphere_over_face, sphere_triangle::sphere_triangle,
+    line_segment_plane::line_segment_plane, point_ellipsoid::point_ellipsoid, point_plane::point_plane,
+    point_polyhedron::point_below_face, point_polyhedron::shallowest_face, point_sphere::point_sphere,
+    ray_bore::ray_bore, ray_plane::RayHit, ray_plane::ray_plane, ray_polyhedron::ray_polyhedron,
+    ray_round::ray_capsule, ray_round::ray_ellipsoid, ray_round::ray_frustum, ray_round::ray_sphere,
+    ray_triangle::ray_triangle, round_plane::capsule_plane, round_plane::frustum_plane, side_edge::side_edge,
+    sphere_ellipsoid::sphere_ellipsoid, sphere_plane::sphere_plane,
+    sphere_polyhedron::sphere_inside_polyhedron, sphere_polyhedron::sphere_outside_polyhedron,
+    sphere_sphere::sphere_sphere, sphere_triangle::sphere_over_face, sphere_triangle::sphere_triangle,
     sphere_triangle_pairs::SphereTrianglePairs, triangle_features::TriangleContact,
     triangle_features::TriangleView, two_capsules::capsule_capsule, two_capsules::segment_capsule,
     two_ended_bore::EndsInBore, two_ended_bore::capsule_bore, two_ended_bore::cylinder_bore,
@@ -392,7 +391,7 @@ impl<M: Movers> Pass<'_, M> {
             }
             let kept_out = b.lanes_kept_out_in(simd, &ends);
             for (lane, (segment, answer)) in segments.iter().zip(answers).enumerate() {
-                let near = || deepest_of_both(&line_segment_polyhedron(segment, b));
+                let near = || deepest_end(segment_solid(segment, b));
                 *answer =
                     (kept_out >> lane & 1 == 0).then(near).flatten().map(Answer::from).unwrap_or_default();
             }
@@ -525,12 +524,8 @@ fn ball(point: &Point) -> Sphere {
     Sphere { center: point.position, radius: 0.0 }
 }
 
-/// A capsule as the spheres at its ends and the edges that its axis crosses between them.
 fn capsule_on_hull(a: &Capsule, b: &Polyhedron) -> Option<Interference> {
-    let at_hull = CapsuleAtPiece::new(a, b)?;
-    let mut found = deepest(balls(a).iter().map(|ball| sphere_on_hull(ball, b)));
-    at_hull.each_crossing(|crossing| found = deepest([found, Some(*crossing)]));
-    found
+    deepest_end(capsule_solid(a, b, &[]))
 }
 
 fn capsule_on_triangle(a: &Capsule, b: &MovableGroup) -> Option<Interference> {
@@ -581,11 +576,6 @@ fn balls(a: &Capsule) -> [Sphere; 2] {
 
 fn deepest(found: impl IntoIterator<Item = Option<Interference>>) -> Option<Interference> {
     found.into_iter().flatten().max_by(|a, b| a.depth.total_cmp(&b.depth))
-}
-
-/// The deeper one, compared in place: moving them first is slower.
-fn deepest_of_both(found: &[Option<Interference>; 2]) -> Option<Interference> {
-    found.iter().flatten().max_by(|a, b| a.depth.total_cmp(&b.depth)).copied()
 }
 
 fn deepest_end<const N: usize>(found: [Option<EndContact>; N]) -> Option<Interference> {

@@ -8,7 +8,7 @@ use crate::surface::Surface;
 use crate::triangle_topology::{self, MeshWarning, TopologyReport};
 use crate::weld::Welder;
 use crate::weld::WordMap;
-use crate::{arrange, hash, one_surface, polyhedra, solids, tree};
+use crate::{arrange, hash, one_surface, polyhedra, solids, tree, wholes};
 use pong_geometry::Vec3;
 use pong_geometry::primitive::PrimitiveKind;
 
@@ -38,6 +38,7 @@ fn finish_body(reader: &mut Reader<'_>, draft: &mut BodyDraft, surfaces: &[Surfa
     let surface_of = join_pieces(reader, draft);
     set_shells(&mut draft.body, &findings, &surface_of);
     one_surface::join_shells(draft);
+    draft.body.wholes = wholes::wholes(&draft.body);
     if reader.fault_count() == 0 {
         solids::fill(reader, draft, surfaces);
     }

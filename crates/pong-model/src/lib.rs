@@ -56,6 +56,7 @@ mod tree;
 mod triangle_topology;
 #[doc(hidden)]
 pub mod weld;
+mod wholes;
 pub mod write;
 
 pub use element::Element;
@@ -66,7 +67,7 @@ pub use fnv::Fnv;
 pub use joined_files::{JoinError, PlacedFile, common_folder, join_files};
 pub use limits::{LARGEST, LARGEST_SIZE, SMALLEST_SIZE};
 pub use model::{
-    Batch, ChunkBoxes, Item, Model, MovableGroup, Node, PrimitiveInfo, SegmentLanes, SphereLanes, Tree,
+    Batch, ChunkBoxes, Item, Model, MovableGroup, Node, PrimitiveInfo, SegmentLanes, SphereLanes, Tree, Whole,
 };
 pub use pair_table::pair_entries;
 pub use printable::{printable, printable_lines};

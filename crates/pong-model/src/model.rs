@@ -83,6 +83,8 @@ pub struct MovableGroup {
     /// Shells of polyhedra, triangles and planes that a group declares one surface (`one_surface: true`), in
     /// increasing order. Only these shells may have primitives of several kinds.
     pub joint_shells: Vec<u32>,
+    /// Convex solids that several polyhedra of one shell form together, by shell.
+    pub wholes: Vec<Whole>,
     /// Parts that touch by overlapped volume.
     pub solids: Vec<Solid>,
     /// Tree of bounding volumes.
@@ -105,6 +107,22 @@ impl MovableGroup {
         self.joint_shells.binary_search(&shell).is_ok()
     }
 
+    /// Returns the convex solid to which a polyhedron belongs, with the item that stands for it: the polyhedron itself
+    /// if none of its faces is internal, or all pieces of its shell together with the first of them. `None` if their
+    /// union is not convex, or if a group declares the shell one surface.
+    #[inline]
+    pub fn convex_solid(&self, item: Item) -> Option<(Item, &Polyhedron)> {
+        let polyhedron = &self.polyhedra[item.element as usize];
+        let shell = self.primitives[item.primitive as usize].shell;
+        if polyhedron.planes().all_active {
+            return (!self.is_joint(shell)).then_some((item, polyhedron));
+        }
+        let at = self.wholes.binary_search_by_key(&shell, |whole| whole.shell).ok()?;
+        let Whole { primitive, solid, .. } = &self.wholes[at];
+        let element = self.primitives[*primitive as usize].elements.start;
+        Some((Item { primitive: *primitive, element }, solid))
+    }
+
     /// Returns `true` if a place is in a polyhedron of the shell other than number `piece`, or below a plane of the
     /// shell.
     pub fn is_in_another(&self, shell: u32, piece: u32, place: &Vec3) -> bool {
@@ -121,6 +139,17 @@ impl MovableGroup {
             }
         })
     }
+}
+
+/// Convex solid that the pieces of a shell form together.
+#[derive(Clone, Debug)]
+pub struct Whole {
+    /// Shell.
+    pub shell: u32,
+    /// First of its pieces (index into [`MovableGroup::primitives`]).
+    pub primitive: u32,
+    /// The solid. Its faces, edges and vertices have numbers of their own; none of its faces is internal.
+    pub solid: Polyhedron,
 }
 
 /// Properties of a primitive other than its shape.

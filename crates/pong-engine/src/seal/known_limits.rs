@@ -7,7 +7,7 @@ use super::warnings::SetupNote;
 use crate::frame::narrow_phase::pair_table::has_tester;
 use crate::scene::Scene;
 use pong_geometry::primitive::PrimitiveKind::{self, *};
-use pong_model::MovableGroup;
+use pong_model::{Item, MovableGroup, PrimitiveInfo};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Deviation of the contact of two kinds of primitives from section 2 or 6 of docs/theory.md.
@@ -39,13 +39,20 @@ const LIMITS: &[KnownLimit] = &[
     KnownLimit {
         a: &[Capsule],
         b: &[Polyhedron],
-        may_show: always,
-        text: "an axis sunk below an edge or a corner stores up to 65 % too little energy, in steps of up to 56 %; keep capsules less \
-               deep than their radius",
+        may_show: has_pieces,
+        text: "on pieces of a body that is not convex an axis sunk below an edge or a corner stores up to 65 % too little energy, in steps of \
+               up to 56 %; keep capsules less deep than their radius",
     },
     KnownLimit {
         a: &[Capsule],
-        b: &[Polyhedron, Triangle],
+        b: &[Polyhedron],
+        may_show: has_pieces,
+        text: "on pieces of a body that is not convex a capsule that lies flat over an edge has half of the stiffness, at the ball or at the \
+               edge by the sign of a tilt; make what lies over edges of several capsules",
+    },
+    KnownLimit {
+        a: &[Capsule],
+        b: &[Triangle],
         may_show: always,
         text: "a capsule that lies flat over an edge has half of the stiffness, at the ball or at the edge by the sign of a tilt and \
                of how the face is cut: steps of up to 0.35·kδ; make what lies over edges of several capsules",
@@ -61,9 +68,9 @@ const LIMITS: &[KnownLimit] = &[
     KnownLimit {
         a: &[LineSegment],
         b: &[Polyhedron],
-        may_show: always,
-        text: "a segment that overhangs its support on both sides has half of the stiffness, at one edge or at the other: the moment \
-               steps between them; make what lies over edges of two segments that meet on the support",
+        may_show: has_pieces,
+        text: "on pieces of a body that is not convex a segment that overhangs its support on both sides has half of the stiffness, at one edge \
+               or at the other: the moment steps between them; make what lies over edges of two segments that meet on the support",
     },
     KnownLimit {
         a: &[Point, LineSegment],
@@ -91,6 +98,15 @@ const LIMITS: &[KnownLimit] = &[
 
 fn always(_: &MovableGroup, _: &MovableGroup) -> bool {
     true
+}
+
+/// True if polyhedra of B are pieces of a surface that is no convex solid.
+fn has_pieces(_: &MovableGroup, b: &MovableGroup) -> bool {
+    let is_piece = |(index, info): (usize, &PrimitiveInfo)| {
+        let item = Item { primitive: index as u32, element: info.elements.start };
+        info.kind == Polyhedron && b.convex_solid(item).is_none()
+    };
+    b.primitives.iter().enumerate().any(is_piece)
 }
 
 fn has_short_pin(a: &MovableGroup, _: &MovableGroup) -> bool {

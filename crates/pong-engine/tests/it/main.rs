@@ -1,6 +1,8 @@
 //! Tests of the engine through its public interface.
 
 mod accounts;
+mod bars_on_pieces;
+mod bars_on_triangles;
 mod beyond_range;
 mod bores;
 mod broad_phase;

@@ -97,7 +97,7 @@ fn the_wrench_of_a_capsule_derives_from_its_energy() {
                 let moved = (place + velocity * time, Quat::from_scaled_axis(rate * time) * orientation);
                 let wrench = rig.set_down(moved);
                 let contacts = rig.world.contacts();
-                between += usize::from(contacts.iter().any(|contact| contact.end == 2));
+                between += usize::from(contacts.iter().any(|contact| contact.end >= 2));
                 (contacts.iter().map(|contact| contact.stored).sum::<f64>(), wrench)
             };
             let ((before, _), (after, _), (middle, wrench)) = (at(-STEP), at(STEP), at(0.0));
@@ -112,14 +112,15 @@ fn the_wrench_of_a_capsule_derives_from_its_energy() {
             assert!((power + slope).abs() < 1e-6 * force, "{name} {case}: {power} {slope}");
             compared += 1;
         }
-        assert!(compared > 1200 && between > 100, "{name}: {compared} {between}");
+        // On a solid the load is between two contacts at the ends of the overlap.
+        assert!(compared > 1200 && (of == solid || between > 100), "{name}: {compared} {between}");
     }
 }
 
-/// The deepest contact of a capsule with a box is the radius minus the distance of its axis from the box,
-/// found by bisection.
+/// A capsule whose axis is outside a box stores ½k·max δ²/(1 + 4x²) over the places x of the axis, −½…½, δ the radius
+/// minus the distance from the box, found by bisection.
 #[test]
-fn capsules_are_as_deep_in_a_box_as_its_distance_tells() {
+fn capsules_store_in_a_box_what_its_distance_tells() {
     let solid = solid();
     for capsule in [LONG, SHORT] {
         let mut rig = Rig::new(&part(capsule), &part(&solid));
@@ -130,22 +131,27 @@ fn capsules_are_as_deep_in_a_box_as_its_distance_tells() {
             let half = if capsule == LONG { 0.9 } else { 0.2 };
             let end = |x: f64, y: f64| place + orientation * Vec3::new(x, y, 0.0);
             let ends = [end(-half, 0.0), end(half, 0.1)];
-            let distance = |share: f64| {
-                let p: Vec3 = ends[0] + (ends[1] - ends[0]) * share;
+            let distance = |x: f64| {
+                let p: Vec3 = ends[0] + (ends[1] - ends[0]) * (x + 0.5);
                 (p.abs() - Vec3::new(0.5, 0.4, 0.3)).sup(&Vec3::zeros()).norm()
             };
-            let (mut low, mut high) = (0.0, 1.0);
-            for _ in 0..200 {
-                let (a, b) = (low + (high - low) / 3.0, high - (high - low) / 3.0);
-                if distance(a) < distance(b) { high = b } else { low = a }
-            }
-            let least = distance(0.5 * (low + high));
-            if least < 1e-9 {
+            let least = |of: &dyn Fn(f64) -> f64| {
+                let (mut low, mut high) = (-0.5, 0.5);
+                for _ in 0..200 {
+                    let (a, b) = (low + (high - low) / 3.0, high - (high - low) / 3.0);
+                    if of(a) < of(b) { high = b } else { low = a }
+                }
+                of(0.5 * (low + high))
+            };
+            if least(&distance) < 1e-9 {
                 continue;
             }
+            // Where nothing is stored, the distance shows the way to where something is.
+            let ratio = |x: f64| (distance(x) - 0.1).max((distance(x) - 0.1) / (1.0 + 4.0 * x * x).sqrt());
+            let expected = 0.25 * K * least(&ratio).min(0.0).powi(2);
             rig.set_down((place, orientation));
-            let found = rig.world.contacts().iter().map(|contact| contact.depth).fold(0.0, f64::max);
-            assert!((found - (0.1 - least).max(0.0)).abs() < 1e-7, "{found} {}", 0.1 - least);
+            let found = rig.world.contacts().iter().map(|contact| contact.stored).sum::<f64>();
+            assert!((found - expected).abs() < 1e-7 * K * 1e-2, "{found} {expected}");
             touching += usize::from(found > 0.0);
             outside += usize::from(found == 0.0);
         }
@@ -153,9 +159,9 @@ fn capsules_are_as_deep_in_a_box_as_its_distance_tells() {
     }
 }
 
-/// A capsule that lies with both ends on a face carries kδ; a tip, and a crossing of one edge, half of that.
+/// A capsule that lies with both ends on a face, and that crosses an edge in its middle, carries kδ, a tip half of that.
 #[test]
-fn a_capsule_that_lies_carries_its_spring_and_an_edge_half_of_it() {
+fn a_capsule_that_lies_or_crosses_carries_its_spring_and_a_tip_half_of_it() {
     let solid = solid();
     let plate = plate_mesh("m", 5, 2.0, |x, y| Vec3::new(x, y, 0.3));
     for b in [&*solid, &plate] {
@@ -170,27 +176,53 @@ fn a_capsule_that_lies_carries_its_spring_and_an_edge_half_of_it() {
     let capsule = format!("Capsule(name: \"c\", ends: ({}, {}), radius: 0.1)", across(-1.0), across(1.0));
     let (force, ends) = set_down(&capsule, &solid);
     let bisector = Vec3::new(1.0, 0.0, 1.0).normalize();
-    assert!((force - bisector * (0.25 * K * depth)).norm() < 1e-9 * K, "{force}");
-    assert_eq!(ends, [2]);
+    assert!((force - bisector * (0.5 * K * depth)).norm() < 1e-9 * K, "{force}");
+    assert_eq!(ends, [0, 1]);
 }
 
 /// A capsule that lies across a box, with both ends past its sides, so deep that its axis is below the face:
-/// the edges hold it, however rounding decides the boundary cases of the face.
+/// it is held as on the face, by one piece and by two, and by half as much if a third piece makes the body concave,
+/// however rounding decides the boundary cases of the face.
 #[test]
-fn a_capsule_sunk_in_along_a_face_is_held_by_the_edges() {
+fn a_capsule_sunk_in_along_a_face_is_held_as_on_it() {
     let mut random = Random(77);
     for case in 0..200 {
         let (depth, half) = (random.between(0.051, 0.09), random.between(0.6, 1.2));
         let ends = format!("ends: (({half:?},0.05,0),(-{half:?},0.05,0))");
         let capsule = format!("Capsule(name: \"c\", {ends}, radius: 0.05)");
-        let mut rig = Rig::new(&part(&capsule), &part(&box_polyhedron("b", [0.0; 3], [0.5, 0.4, 0.3], "")));
+        let piece = |name, z, walls| box_polyhedron(name, [0.0, 0.0, z], [0.5, 0.4, 0.15], walls);
+        let two = format!("{}, {}", piece("t", 0.15, "0"), piece("u", -0.15, "1"));
+        let foot = box_polyhedron("f", [0.3, 0.0, -0.4], [0.1, 0.1, 0.1], "1");
+        let three = format!("{}, {}, {foot}", piece("t", 0.15, "0"), piece("u", -0.15, "1,0"));
         let turn = random.orientation();
         let above = turn * Vec3::new(0.0, 0.0, 0.35 - depth);
-        rig.place([at(above, turn), at(Vec3::zeros(), turn)]);
-        rig.world.evaluate().unwrap();
-        let force = turn.inverse() * rig.wrench(0).force;
-        let error = (force - Vec3::z() * (0.25 * K * depth)).norm();
-        assert!(error < 1e-9 * K, "case {case}, {depth} deep: {force}");
+        for (b, share) in [(solid(), 1.0), (two, 1.0), (three, 0.5)] {
+            let mut rig = Rig::new(&part(&capsule), &part(&b));
+            rig.place([at(above, turn), at(Vec3::zeros(), turn)]);
+            rig.world.evaluate().unwrap();
+            let force = turn.inverse() * rig.wrench(0).force;
+            let error = (force - Vec3::z() * (0.5 * K * share * depth)).norm();
+            assert!(error < 1e-9 * K, "case {case}, {depth} deep: {force}");
+        }
+    }
+}
+
+/// A capsule that is pushed into a plate past its middle is pushed back to the side from which it came; set down there it
+/// leaves by the nearer side.
+#[test]
+fn a_plate_pushes_a_capsule_back_to_its_side() {
+    let plate = box_polyhedron("b", [0.0, 0.0, -0.01], [0.5, 0.4, 0.01], "");
+    for tilt in [0.0, 0.01, -0.01] {
+        let mut rig = Rig::new(&part(SHORT), &part(&plate));
+        let turn = Quat::from_scaled_axis(Vec3::new(0.0, tilt, 0.1));
+        for step in 0..40 {
+            rig.place_a(Vec3::new(0.02, 0.05, 0.06 - 0.002 * f64::from(step)), turn);
+            rig.world.step().unwrap();
+        }
+        let (deep, force) = (rig.wrench(0).force, 0.5 * K * 0.118);
+        assert!((deep - Vec3::z() * force).norm() < 0.01 * force, "{tilt}: {deep}");
+        let anew = rig.set_down((Vec3::new(0.02, 0.05, -0.018), turn)).force;
+        assert!(anew.z < -0.49 * K * 0.1, "{tilt}: {anew}");
     }
 }
 
@@ -213,12 +245,12 @@ fn cuts_have_no_effect_on_a_capsule() {
         box_polyhedron("r", [0.4, 0.0, 0.0], [0.1, 0.4, 0.3], "4"),
     ]
     .join(",");
-    for (name, whole, cut, center, turn, limit) in [
-        ("plate", plane.clone(), plate(false), normal * 0.09, 0.02, 1e-9),
-        ("plate in single precision", plane, plate(true), normal * 0.09, 0.02, 1e-3),
-        ("box", solid(), pieces, Vec3::new(0.1, 0.05, 0.38), 0.2, 1e-9),
+    for (name, bar, whole, cut, center, turn, limit) in [
+        ("plate", LONG, plane.clone(), plate(false), normal * 0.09, 0.02, 1e-9),
+        ("plate in single precision", LONG, plane, plate(true), normal * 0.09, 0.02, 1e-3),
+        ("box", LONG, solid(), pieces, Vec3::new(0.1, 0.05, 0.38), 0.2, 1e-9),
     ] {
-        let mut rigs = [whole, cut].map(|b| Rig::new(&part(LONG), &part(&b)));
+        let mut rigs = [whole, cut].map(|b| Rig::new(&part(bar), &part(&b)));
         let mut random = Random(7);
         let mut touching = 0;
         for case in 0..500 {
@@ -234,8 +266,8 @@ fn cuts_have_no_effect_on_a_capsule() {
     }
 }
 
-/// Across and along prisms of many sides, the wrench converges to the cylinder's with the square of their
-/// number.
+/// Across and along prisms of many sides, the force converges with the square of their number to kδ/(1 + 4x²), where the
+/// distance δ from the cylinder makes the most of δ²/(1 + 4x²).
 #[test]
 fn prisms_of_many_sides_come_closer_to_the_cylinder_as_the_square_of_their_number() {
     let prism = |sides: usize| {
@@ -256,22 +288,37 @@ fn prisms_of_many_sides_come_closer_to_the_cylinder_as_the_square_of_their_numbe
         let corners: Vec<String> = corners.collect();
         format!("Polyhedron(name: \"b\", vertices: [{}], faces: [{}])", corners.join(","), faces.join(","))
     };
-    let cylinder = "Cylinder(name: \"c\", ends: ((0,-0.5,0),(0,0.5,0)), radius: 0.4)";
-    let mut exact = Rig::new(&part(LONG), &part(cylinder));
+    let exact = |(place, orientation): (Vec3, Quat)| {
+        let depth = |x: f64| {
+            let p = place + orientation * Vec3::new(1.8 * x, 0.1 * x + 0.05, 0.0);
+            0.1 - (p.x.hypot(p.z) - 0.4).max(0.0).hypot((p.y.abs() - 0.5).max(0.0))
+        };
+        let ratio = |x: f64| depth(x) / (1.0 + 4.0 * x * x).sqrt();
+        let (mut low, mut high) = (-0.5, 0.5);
+        for _ in 0..200 {
+            let (a, b) = (low + (high - low) / 3.0, high - (high - low) / 3.0);
+            if ratio(a) > ratio(b) { high = b } else { low = a }
+        }
+        let x = 0.5 * (low + high);
+        0.5 * K * depth(x) / (1.0 + 4.0 * x * x)
+    };
     let mut rigs = [32, 64, 128].map(|sides| Rig::new(&part(LONG), &part(&prism(sides))));
     let mut random = Random(8);
-    let mut worst = [0.0_f64; 3];
+    let (mut worst, mut touching) = ([0.0_f64; 3], 0);
     for _ in 0..200 {
-        let pose = random_pose(&mut random, Vec3::new(0.0, 0.0, 0.45), 0.02, 0.15);
-        let expected = exact.set_down(pose);
+        let pose = random_pose(&mut random, Vec3::new(0.0, 0.0, 0.46), 0.02, 0.15);
+        let expected = exact(pose);
+        if expected <= 0.0 {
+            continue;
+        }
+        touching += 1;
         for (worst, rig) in worst.iter_mut().zip(&mut rigs) {
-            let found = rig.set_down(pose);
-            *worst = worst.max((found.force.norm() - expected.force.norm()).abs() / K);
+            *worst = worst.max((rig.set_down(pose).force.norm() - expected).abs() / K);
         }
     }
     println!("{worst:?}");
     let falls = [worst[0] / worst[1], worst[1] / worst[2]];
-    assert!(falls.iter().all(|fall| (3.0..5.0).contains(fall)), "{worst:?}");
+    assert!(touching > 100 && falls.iter().all(|fall| (3.0..5.0).contains(fall)), "{worst:?}");
 }
 
 /// A capsule thrown through a thin wall is reported, whichever of its points passes through.
@@ -331,8 +378,8 @@ fn the_rim_of_a_plate_pushes_what_is_in_its_plane_once() {
         let out = Vec3::new(rim.1[0], rim.1[1], 0.0);
         for sign in [1.0, -1.0] {
             for (index, q) in turns.iter().enumerate() {
-                // Two equal springs in series, and half of one at each end and each crossing.
-                let expected = 0.5 * 0.5 * K * 0.02;
+                // Two equal springs in series; half of one at an end, the whole in the middle.
+                let expected = 0.5 * K * 0.02;
                 let upright = Vec3::z() * sign;
                 let (along, aside) = force_beside(&plate(true), &upright, rim, 0.08, q);
                 assert!(
@@ -342,14 +389,14 @@ fn the_rim_of_a_plate_pushes_what_is_in_its_plane_once() {
                 let lying = out * (0.5 * sign);
                 let (along, aside) = force_beside(&plate(true), &lying, rim, 0.58, q);
                 assert!(
-                    (along - expected).abs() < 1e-6 && aside < 1e-6,
+                    (along - 0.5 * expected).abs() < 1e-6 && aside < 1e-6,
                     "{rim:?} turn {index}: {along} {aside}"
                 );
             }
             // The same force on a one-sided plate, for centres exactly in its plane (scene not rotated).
             let (along, aside) =
                 force_beside(&plate(false), &(Vec3::z() * sign), rim, 0.08, &Quat::identity());
-            assert!((along - 0.25 * K * 0.02).abs() < 1e-9 && aside < 1e-9, "{rim:?}: {along} {aside}");
+            assert!((along - 0.5 * K * 0.02).abs() < 1e-9 && aside < 1e-9, "{rim:?}: {along} {aside}");
             // No contact pushes into the plate.
             let (along, aside) =
                 force_beside(&plate(false), &(Vec3::z() * sign), rim, -0.08, &Quat::identity());

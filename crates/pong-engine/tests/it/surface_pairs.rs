@@ -1,7 +1,7 @@
 //! Surfaces of two models: errors for incompatible ones, entries for pairs of equal names, notes without
 //! duplicates.
 
-use crate::common::{Rig, load, model, surface};
+use crate::common::{Rig, box_polyhedron, load, model, surface};
 use pong_engine::{Config, EngineError, SealReport, SetupNote, SetupWarning, WorldBuilder};
 use pong_geometry::{Quat, Vec3};
 use pong_testkit::assert_near;
@@ -149,18 +149,27 @@ fn known_limits_are_noted_by_the_kinds_that_meet() {
     let ball = "Sphere(name: \"s\", center: (0,0,0), radius: 0.1)";
     let corner = "Point(name: \"t\", position: (1,0,0))";
     let cornered = format!("{corner}, {solid}");
+    let boxes = [("l", -0.5, 0.0, "5"), ("r", 0.5, 0.0, "4,1"), ("t", 0.5, 0.6, "0")];
+    let pieces = boxes.map(|(name, x, z, walls)| box_polyhedron(name, [x, 0.0, z], [0.5, 0.4, 0.3], walls));
+    let (whole, pieces) = (
+        pieces[..1].join(",") + ", " + &box_polyhedron("r", [0.5, 0.0, 0.0], [0.5, 0.4, 0.3], "4"),
+        pieces.join(","),
+    );
     for (a, b, expected) in [
         (capsule, capsule, vec![]),
         (bar, capsule, vec![]),
         (&*pin(1.0), bar, vec![(2, "b LineSegment, a Cylinder")]),
         (capsule, &cone(0.05), vec![(2, "a Capsule, b Cone")]),
-        (solid, capsule, vec![(2, "b Capsule, a Polyhedron")]),
+        (solid, capsule, vec![]),
+        (&whole, capsule, vec![]),
+        (&pieces, capsule, vec![(2, "b Capsule, a Polyhedron")]),
         (&pin(0.04), bore, vec![(1, "a Cylinder, b Bore")]),
         (&pin(0.06), bore, vec![]),
         (&cone(0.0), FLOOR, vec![(1, "a Cone, b Plane")]),
         (&cone(0.05), FLOOR, vec![]),
         (ball, capsule, vec![]),
-        (bar, solid, vec![(1, "a LineSegment, b Polyhedron")]),
+        (bar, solid, vec![]),
+        (bar, &pieces, vec![(1, "a LineSegment, b Polyhedron")]),
         (&*pin(1.0), solid, vec![(1, "a Cylinder, b Polyhedron")]),
         (solid, &cone(0.05), vec![(1, "b Cone, a Polyhedron")]),
         (corner, solid, vec![]),

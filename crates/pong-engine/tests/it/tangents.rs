@@ -7,6 +7,7 @@ use nalgebra::SMatrix;
 use pong_engine::{Config, EngineError, PairTangent, State, WorldBuilder};
 use pong_geometry::{Quat, Vec3};
 use pong_model::Extensions;
+use pong_testkit::Random;
 
 type Matrix12 = SMatrix<f64, 12, 12>;
 
@@ -141,6 +142,42 @@ fn differences_give_the_same() {
         assert!(apart(&exact, &differences, 0.3) < 1e-5, "{exact:?}\n{differences:?}");
         assert_eq!(rig.wrench(0), wrench, "the frame is that of before");
         assert!(rig.world.is_evaluated());
+    }
+}
+
+/// Bars on a box and on a ridge, sunk in or not: over faces with both ends, overhanging, on edges and corners, on a tip.
+#[test]
+fn bars_on_solids_have_the_tangents_of_differences() {
+    let rough = surface(K, "normal: Linear(damping: 300.0), friction: Bristle(mu: 0.4, damping: 60.0)");
+    let box_ = box_polyhedron("box", [0.0, 0.0, -0.2], [0.5, 0.4, 0.2], "");
+    let ridge = "Polyhedron(name: \"w\", vertices: [(-1,-0.5,-0.5),(1,-0.5,-0.5),(1,0.5,-0.5),(-1,0.5,-0.5),(0,-0.5,0),(0,0.5,0)], \
+                 faces: [[0,3,2,1],[0,4,5,3],[1,2,5,4],[0,1,4],[2,3,5]])";
+    let mut random = Random(41);
+    for (radius, solid) in [(0.1, &*box_), (0.1, ridge), (0.0, &box_), (0.0, ridge)] {
+        let ends = "ends: ((-0.5,0,0),(0.4,0,0))";
+        let bar = match radius > 0.0 {
+            true => format!("Capsule(name: \"c\", {ends}, radius: {radius:?})"),
+            false => format!("LineSegment(name: \"c\", {ends})"),
+        };
+        let mut rig = Rig::new(&model("bar", &rough, &bar), &model("solid", &rough, solid));
+        let (mut compared, mut off) = (0, 0);
+        for _ in 0..150 {
+            let above = radius - random.between(0.002, 0.04);
+            let place = Vec3::new(random.between(-0.7, 0.7), random.between(-0.6, 0.6), above);
+            let turn = Quat::from_scaled_axis(Vec3::new(0.3, 0.1, 2.0).component_mul(&random.vector(1.0)));
+            rig.world.clear_contact_history(rig.objects[0]).unwrap();
+            rig.place([moving(place, turn, random.vector(0.1), random.vector(0.1)), State::identity()]);
+            rig.world.evaluate().unwrap();
+            if rig.world.contact_count() == 0 {
+                continue;
+            }
+            let exact = rig.world.tangents().unwrap();
+            let differences = rig.world.tangents_by_differences().unwrap();
+            compared += 1;
+            off += usize::from(apart(&exact, &differences, 0.3) > 1e-4);
+        }
+        // Differences may step over a kink.
+        assert!(compared > 50 && off * 20 < compared, "{radius} {solid}: {off} of {compared}");
     }
 }
 

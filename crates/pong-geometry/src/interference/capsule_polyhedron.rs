@@ -75,13 +75,11 @@ impl<'a> CapsuleAtPiece<'a> {
 
     /// Calls `visit` with the contacts of all edges that are near enough to push, in edge order.
     fn each_near(&self, visit: &mut dyn FnMut(&Interference)) {
-        for first in (0..self.polyhedron.edges.len()).step_by(SomeEdges::COUNT) {
-            SomeEdges::near(self, first).each(|index| {
-                if let Some(crossing) = self.crossing(index) {
-                    visit(&crossing);
-                }
-            });
-        }
+        each_edge_in(&Query::new(self), self.polyhedron, &mut |index| {
+            if let Some(crossing) = self.crossing(index) {
+                visit(&crossing);
+            }
+        });
     }
 
     /// Returns the contact with an edge; `None` if there is none or the index is out of range.
@@ -112,6 +110,24 @@ fn highest_of_lower_end<S: Simd>(simd: S, capsule: &Capsule, polyhedron: &Polyhe
     simd.largest(top)
 }
 
+/// Calls `visit` with the indices of all edges that push and come within `reach` (m) of a segment, and perhaps of
+/// some others, in order.
+pub(super) fn each_edge_near(
+    ends: &[Vec3; 2],
+    reach: f64,
+    polyhedron: &Polyhedron,
+    visit: &mut dyn FnMut(usize),
+) {
+    let reach = reach + Query::slack(ends, reach, polyhedron);
+    each_edge_in(&Query { ends: *ends, reach, beside: reach }, polyhedron, visit);
+}
+
+fn each_edge_in(query: &Query, polyhedron: &Polyhedron, visit: &mut dyn FnMut(usize)) {
+    for first in (0..polyhedron.edges.len()).step_by(SomeEdges::COUNT) {
+        SomeEdges::near(query, polyhedron, first).each(&mut *visit);
+    }
+}
+
 /// Subset of the edges of a piece: a bit for each of [`COUNT`](Self::COUNT) consecutive edges.
 struct SomeEdges {
     /// Index of the first edge.
@@ -125,8 +141,8 @@ impl SomeEdges {
 
     /// Returns all edges that are near enough to push, and perhaps some others, among the `COUNT` edges from
     /// `first` on.
-    fn near(at: &CapsuleAtPiece<'_>, first: usize) -> Self {
-        let (query, polyhedron, first) = (&Query::new(at), at.polyhedron, &first);
+    fn near(query: &Query, polyhedron: &Polyhedron, first: usize) -> Self {
+        let first = &first;
         run_at_level!(near_in(query: Query, polyhedron: Polyhedron, first: usize) -> SomeEdges)
     }
 
@@ -164,11 +180,16 @@ impl Query {
     const SLACK: f64 = 1e-9;
 
     fn new(at: &CapsuleAtPiece<'_>) -> Self {
-        let Capsule { ends: [one, other], radius } = at.capsule;
-        let diameter = at.polyhedron.planes().wall_slack / FacePlanes::WALL_TOLERANCE;
-        let slack = Self::SLACK * (one.amax() + other.amax() + radius + diameter);
+        let Capsule { ends, radius } = at.capsule;
+        let slack = Self::slack(ends, *radius, at.polyhedron);
         let sunk = at.rounding() - at.top;
-        Self { ends: at.capsule.ends, reach: radius.max(sunk) + slack, beside: radius + slack }
+        Self { ends: *ends, reach: radius.max(sunk) + slack, beside: radius + slack }
+    }
+
+    /// Returns a margin far above the rounding of a distance, m.
+    fn slack([one, other]: &[Vec3; 2], reach: f64, polyhedron: &Polyhedron) -> f64 {
+        let diameter = polyhedron.planes().wall_slack / FacePlanes::WALL_TOLERANCE;
+        Self::SLACK * (one.amax() + other.amax() + reach + diameter)
     }
 }
 

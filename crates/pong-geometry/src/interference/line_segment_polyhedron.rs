@@ -80,6 +80,33 @@ pub fn line_segment_piece(segment: &LineSegment, polyhedron: &Polyhedron) -> Pie
     }
 }
 
+/// Returns the part of a segment inside a convex solid, as fractions of the segment's length; `None` if it is
+/// empty.
+#[inline]
+pub(super) fn part_in_solid(segment: &LineSegment, polyhedron: &Polyhedron) -> Option<[f64; 2]> {
+    let ends = match polyhedron.planes().blocks.len() {
+        ..=FEW => {
+            run_at_level!(inside_few(segment: LineSegment, polyhedron: Polyhedron) -> Option<[InsideEnd; 2]>)
+        }
+        _ => {
+            run_at_level!(inside_many(segment: LineSegment, polyhedron: Polyhedron) -> Option<[InsideEnd; 2]>)
+        }
+    };
+    ends.map(|ends| ends.map(|end| end.at))
+}
+
+#[inline(always)]
+fn inside_few<S: Simd>(simd: S, segment: &LineSegment, polyhedron: &Polyhedron) -> Option<[InsideEnd; 2]> {
+    let planes = SegmentPlanes::new(simd, segment, polyhedron);
+    planes.inside_part::<FirstOf<S, FEW>, FEW>().ok().map(|inside| inside.ends)
+}
+
+#[inline(always)]
+fn inside_many<S: Simd>(simd: S, segment: &LineSegment, polyhedron: &Polyhedron) -> Option<[InsideEnd; 2]> {
+    let planes = SegmentPlanes::new(simd, segment, polyhedron);
+    planes.inside_part::<First<S>, MANY>().ok().map(|inside| inside.ends)
+}
+
 /// Largest numbers of face blocks for which the three variants of the test are compiled. Above `MANY` blocks,
 /// every face is evaluated.
 const FEW: usize = 2;

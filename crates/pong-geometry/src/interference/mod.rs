@@ -5,8 +5,11 @@
 //! function of the caller (`emit`) for each contact.
 
 mod axis_approach;
+pub mod axis_triangle;
 pub mod ball_bore;
 pub mod ball_round;
+pub mod bar_polyhedron;
+mod bar_walk;
 mod behind_triangle;
 pub mod capsule_edge;
 pub mod capsule_polyhedron;
@@ -25,6 +28,7 @@ mod least_translation;
 pub mod line_segment_plane;
 pub mod line_segment_polyhedron;
 pub mod nearest_on_triangle;
+mod planes_at_round;
 pub mod point_ellipsoid;
 pub mod point_plane;
 pub mod point_polyhedron;

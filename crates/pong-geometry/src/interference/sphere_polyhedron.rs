@@ -44,6 +44,33 @@ fn outside_in<S: Simd>(simd: S, sphere: &Sphere, polyhedron: &Polyhedron) -> Opt
     near.contact(&near.survey()?)
 }
 
+/// A sphere beside or in a polyhedron.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Beside {
+    /// The centre is inside.
+    Inside,
+    /// The contact with the nearest feature; the centre is outside.
+    At(Interference),
+    /// The sphere does not reach the polyhedron.
+    Far,
+}
+
+/// Returns the contact of a sphere with the nearest feature, if its centre is outside.
+#[inline]
+pub(super) fn sphere_beside_polyhedron(sphere: &Sphere, polyhedron: &Polyhedron) -> Beside {
+    run_at_level!(beside_in(sphere: Sphere, polyhedron: Polyhedron) -> Beside)
+}
+
+#[inline(always)]
+fn beside_in<S: Simd>(simd: S, sphere: &Sphere, polyhedron: &Polyhedron) -> Beside {
+    let near = Near::new(simd, sphere, polyhedron);
+    let Some(survey) = near.survey() else { return Beside::Far };
+    if survey.is_inside {
+        return Beside::Inside;
+    }
+    near.contact(&survey).map_or(Beside::Far, Beside::At)
+}
+
 /// Returns the contact of a sphere whose centre is inside, with the face that pushes.
 #[inline]
 pub fn sphere_inside_polyhedron(sphere: &Sphere, polyhedron: &Polyhedron, face: usize) -> Interference {

@@ -6,12 +6,20 @@
 
 use super::axis_approach::nearest_of_segments;
 use super::round_surface::nearest_on_segment;
-use super::two_ended_round::EndContact;
 use super::{Feature, Interference};
 use crate::primitive::{Capsule, LineSegment};
 use crate::{Vec3, any_perpendicular, divisor};
 
-/// Contacts of a segment or a capsule with a capsule: at the two ends of their overlap on A's axis, which
+/// Contact of a body with two ends.
+#[derive(Clone, Copy, Debug)]
+pub struct EndContact {
+    /// Point, normal and depth.
+    pub interference: Interference,
+    /// Part of half a spring that acts in this contact, 0…2, no unit.
+    pub share: f64,
+}
+
+/// Contacts of a segment or a capsule with a round solid: at the two ends of their overlap on A's axis, which
 /// carry the load by the lever rule.
 pub type OverlapContacts = [Option<EndContact>; 2];
 
@@ -42,7 +50,7 @@ fn contacts(ends: &[Vec3; 2], radius: f64, capsule: &Capsule) -> OverlapContacts
 }
 
 /// Returns the fractions of a load at `at` that the two ends of an interval around it carry.
-fn lever_shares([from, to]: &[f64; 2], at: f64) -> [f64; 2] {
+pub(super) fn lever_shares([from, to]: &[f64; 2], at: f64) -> [f64; 2] {
     let second = if from < to { (at - from) / divisor(to - from) } else { 0.5 };
     [1.0 - second, second]
 }
@@ -274,7 +282,7 @@ fn place_on(ends: &[Vec3; 2], point: &Vec3) -> f64 {
 /// Returns what `visit` finds at the zero of a function that rises from −½ to ½, or at the end of the
 /// interval nearest to it. `visit` returns the value, an estimate of the derivative, and what it finds. Newton's
 /// steps, halving where they do not shrink or leave the interval in which the zero is.
-fn zero_of_rising<T>(start: f64, mut visit: impl FnMut(f64) -> (f64, f64, T)) -> T {
+pub(super) fn zero_of_rising<T>(start: f64, mut visit: impl FnMut(f64) -> (f64, f64, T)) -> T {
     const STEPS: usize = 120;
     const ENOUGH: f64 = 2.0 * f64::EPSILON;
     let (mut low, mut high) = (-0.5, 0.5);
@@ -292,6 +300,8 @@ fn zero_of_rising<T>(start: f64, mut visit: impl FnMut(f64) -> (f64, f64, T)) ->
             (low, known[0]) = (at, true);
         }
         let newton = at - value / divisor(slope);
+        // A step that rounding swallows goes just past the zero, or it is at a kink.
+        let newton = if (newton - at).abs() < ENOUGH { at - ENOUGH.copysign(value) } else { newton };
         let middle = 0.5 * (low + high);
         let shrinks = (newton - at).abs() <= 0.5 * steps[0];
         let next = if slope <= 0.0 || newton <= low {
@@ -313,7 +323,7 @@ fn zero_of_rising<T>(start: f64, mut visit: impl FnMut(f64) -> (f64, f64, T)) ->
 }
 
 /// Returns the interval in which square·x² + 2·half·x + rest is not positive, if any.
-fn non_positive(square: f64, half: f64, rest: f64) -> Option<[f64; 2]> {
+pub(super) fn non_positive(square: f64, half: f64, rest: f64) -> Option<[f64; 2]> {
     let root = half * half - square * rest;
     (root >= 0.0).then(|| {
         let sum = -half - root.max(0.0).sqrt().copysign(half);

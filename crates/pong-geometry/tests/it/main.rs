@@ -1,5 +1,6 @@
 //! Tests of the geometry: contacts, bounding volumes and lanes against independent answers.
 
+mod bar_polyhedron;
 mod bore_support;
 mod bores;
 mod bounding_conservative;
@@ -35,10 +36,12 @@ mod overlap_timing;
 mod ray_round;
 mod rods_in_bores;
 mod round_parts;
+mod round_paths;
 mod round_plane;
 mod round_support;
 mod segment_all_faces;
 mod segment_grazing;
 mod sphere_triangle_pairs;
 mod two_capsules;
+mod two_ended_round;
 mod two_frusta;

@@ -99,6 +99,17 @@ fn renumbered(vertices: &[Vec3], random: &mut Random) -> (Vec<Vec3>, Vec<usize>)
 
 /// Faces cut into more triangles, solids into pieces: anywhere, and through the point where A pushes.
 pub fn cut(base: &Base, random: &mut Random) -> Option<Twin> {
+    cut_by_rule(base, random, BarsOn::Whole)
+}
+
+/// What capsules and segments touch if a solid is cut.
+#[derive(Clone, Copy, PartialEq)]
+enum BarsOn {
+    Whole,
+    Pieces,
+}
+
+fn cut_by_rule(base: &Base, random: &mut Random, bars: BarsOn) -> Option<Twin> {
     let scene = &base.scene;
     if scene.is_of_solids() {
         return cut_volumes(base, random);
@@ -110,7 +121,7 @@ pub fn cut(base: &Base, random: &mut Random) -> Option<Twin> {
         [Shape::Mesh(mesh)] => vec![Shape::Mesh(cut_mesh(mesh, aim.map(|aim| aim.0), random))],
         [Shape::Polyhedron(_)] => {
             let pieces = cut_solid(shapes, aim, random)?;
-            is_fair(base, &pieces).then_some(())?;
+            is_fair(base, &pieces, bars).then_some(())?;
             pieces.into_iter().map(Shape::Polyhedron).collect()
         }
         [Shape::Round(hole)] if hole.kind == RoundKind::Bore => {
@@ -132,7 +143,7 @@ pub fn declared(base: &Base, random: &mut Random) -> Option<Twin> {
     let scene = &base.scene;
     let [Shape::Polyhedron(_)] = scene.bodies[1].shapes.as_slice() else { return None };
     (!scene.is_of_solids()).then_some(())?;
-    let mut twin = cut(base, random)?;
+    let mut twin = cut_by_rule(base, random, BarsOn::Pieces)?;
     let body = &mut twin.scene.bodies[1];
     body.is_one_surface = true;
     for shape in &mut body.shapes {
@@ -250,9 +261,9 @@ fn plate(base: &Base, normal: &Vec3, offset: f64, random: &mut Random) -> Option
 /// begins, and the path of entry must lead into that piece directly. A piece only knows its own faces: a
 /// point deep in one piece and nearest to a face of another, a step through one piece into the next, or an
 /// ellipsoid that overlaps several pieces has a different answer (docs/invariances.md).
-fn is_fair(base: &Base, pieces: &[Solid]) -> bool {
+fn is_fair(base: &Base, pieces: &[Solid], bars: BarsOn) -> bool {
     let [Shape::Polyhedron(whole)] = base.scene.bodies[1].shapes.as_slice() else { return false };
-    let cut = Cut { base, whole, pieces, slack: 1e-9 * base.scene.size };
+    let cut = Cut { base, whole, pieces, bars, slack: 1e-9 * base.scene.size };
     (0..base.scene.frames.len()).all(|frame| {
         let shapes = base.scene.bodies[0].shapes.iter().enumerate();
         shapes.into_iter().all(|(index, shape)| cut.is_fair_for(frame, index, shape))
@@ -264,6 +275,7 @@ struct Cut<'b> {
     base: &'b Base,
     whole: &'b Solid,
     pieces: &'b [Solid],
+    bars: BarsOn,
     slack: f64,
 }
 
@@ -290,6 +302,8 @@ impl Cut<'_> {
             }
             Shape::Ellipsoid { semi_axes, .. } => touches.all(|touch| touch.depth < 0.05 * semi_axes.min()),
             Shape::Ray { origin, .. } => is_outside(self.whole, &at(origin), self.slack),
+            Shape::Segment { .. } if self.bars == BarsOn::Whole => true,
+            Shape::Round(part) if part.kind == RoundKind::Capsule && self.bars == BarsOn::Whole => true,
             Shape::Segment { ends } => {
                 let Some(first) = touches.next() else { return true };
                 let is_flat = touches.all(|touch| (touch.normal - first.normal).norm() < 1e-9);
@@ -300,7 +314,15 @@ impl Cut<'_> {
             }
             Shape::Round(part) => {
                 let ends = part.ends.map(|end| at(&end));
-                is_passed_by(self.whole, &ends, self.slack)
+                // On a whole both ends of a capsule yield: pieces know this of an end that leaves by a face.
+                let mut by_its_end = touches.all(|touch| {
+                    let out = back * touch.normal;
+                    let foot = |end: &Vec3| end - out * (part.radii[0] - touch.depth);
+                    let is_foot = |end: &Vec3| is_inside(self.whole, &foot(end), self.slack);
+                    touch.weight == 1.0 && ends.get(touch.end as usize).is_some_and(is_foot)
+                });
+                by_its_end |= part.kind != RoundKind::Capsule;
+                by_its_end && is_passed_by(self.whole, &ends, self.slack)
             }
             Shape::Plane { .. } | Shape::Polyhedron(_) | Shape::Mesh(_) => true,
         }

@@ -18,8 +18,8 @@ mod support;
 #[cfg(test)]
 mod tests;
 
-pub(crate) use places::Places;
-pub(crate) use polygon::{area, overlap_area};
+pub(crate) use places::{Places, diameter};
+pub(crate) use polygon::{area, convex_outline, overlap_area};
 pub(crate) use problem::Problem;
 pub(crate) use solid::{Hull, HullFace, PLANE_TOLERANCE};
 
@@ -45,7 +45,7 @@ pub(crate) fn check(vertices: &[Vec3], faces: &[&[u32]], active: &[bool]) -> Res
 /// Builds the solid from faces whose edges all have a length; faces without an outline are ignored.
 fn of_surface(vertices: &[Vec3], authored: &[Vec<u32>], active: &[bool]) -> Result<Hull, Vec<Problem>> {
     let tree = Places::new(vertices);
-    let diameter = places::diameter(vertices, &tree);
+    let diameter = diameter(vertices, &tree);
     checks::closed_surface(vertices, authored)?;
     let mut faces = Cow::Borrowed(authored);
     join_slivers(vertices, &mut faces)?;

@@ -174,7 +174,7 @@ impl Places {
 }
 
 /// Largest distance between two vertices; by comparing all pairs if there are few.
-pub(super) fn diameter(places: &[Vec3], tree: &Places) -> f64 {
+pub(crate) fn diameter(places: &[Vec3], tree: &Places) -> f64 {
     if places.len() > FEW {
         return tree.diameter();
     }

@@ -79,13 +79,8 @@ pub(super) fn dent(corners: &[Vec3], normal: &Vec3, tolerance: f64) -> Option<(f
 /// (Rounding may give the short edges of a straight side any direction, but moves no corner by more than the
 /// tolerance.)
 pub(super) fn hull_sides(corners: &[Vec3], normal: &Vec3, tolerance: f64) -> Option<Vec<[usize; 2]>> {
-    let first = corners[0];
-    let across = unit(&(if normal.x.abs() < 0.6 { Vec3::x() } else { Vec3::y() }).cross(normal));
-    let along = across.cross(normal);
     let count = corners.len();
-    // Counter-clockwise seen along the normal: `along`, then `across`.
-    let flat: Vec<[f64; 2]> =
-        corners.iter().map(|c| [along.dot(&(c - first)), across.dot(&(c - first))]).collect();
+    let flat = flattened(corners, normal);
     let place = |k: usize| flat[k % count];
     let mut hull = convex_hull(&flat);
     let first = hull.iter().enumerate().min_by_key(|(_, corner)| **corner).map_or(0, |(at, _)| at);
@@ -110,6 +105,19 @@ pub(super) fn hull_sides(corners: &[Vec3], normal: &Vec3, tolerance: f64) -> Opt
         (side[0]..side[1]).for_each(|k| sides[k % count] = [side[0] % count, side[1] % count]);
     }
     Some(sides)
+}
+
+/// Coordinates in the plane across a normal, in which counter-clockwise is about the normal.
+fn flattened(corners: &[Vec3], normal: &Vec3) -> Vec<[f64; 2]> {
+    let across = unit(&(if normal.x.abs() < 0.6 { Vec3::x() } else { Vec3::y() }).cross(normal));
+    let along = across.cross(normal);
+    let in_plane = |away: Vec3| [along.dot(&away), across.dot(&away)];
+    corners.iter().map(|corner| in_plane(corner - corners[0])).collect()
+}
+
+/// Corners of the convex hull of places in a plane, counter-clockwise about its normal.
+pub(crate) fn convex_outline(places: &[Vec3], normal: &Vec3) -> Vec<usize> {
+    convex_hull(&flattened(places, normal))
 }
 
 /// Corners of the convex hull of points in a plane, counter-clockwise (Andrew, 1979).

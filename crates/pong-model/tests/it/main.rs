@@ -16,4 +16,5 @@ mod round_parts;
 mod schema;
 mod solids;
 mod topology;
+mod wholes;
 mod written;

@@ -13,7 +13,7 @@ use pong_geometry::Vec3;
 use pong_geometry::interference::Interference;
 use pong_geometry::interference::ellipsoid_triangle_pairs::EllipsoidTrianglePairs;
 use pong_geometry::interference::sphere_triangle_pairs::{PairsTold, SphereTrianglePairs};
-use pong_geometry::primitive::{Capsule, Containment, PrimitiveKind, Sphere, TriangleSet};
+use pong_geometry::primitive::{Capsule, Containment, Polyhedron, PrimitiveKind, Sphere, TriangleSet};
 use pong_geometry::simd::{LANES, Simd};
 use pong_model::{Item, MovableGroup, PrimitiveInfo};
 
@@ -198,18 +198,39 @@ impl<'a> ElementPair<'a> {
     /// Current face of entry and pushing face for a point inside B's polyhedron; `None` if the polyhedron has
     /// no active face. The point is `local` in A's frame and `p` in B's frame.
     #[inline]
-    pub fn entry_face(&self, remembered: &RecordsOfKey<'_>, local: &Vec3, p: &Vec3) -> Option<EntryFace> {
+    pub fn entry_face(
+        &self,
+        polyhedron: &Polyhedron,
+        remembered: &RecordsOfKey<'_>,
+        local: &Vec3,
+        p: &Vec3,
+    ) -> Option<EntryFace> {
         PolyhedronEntry {
             records: remembered.records,
             body: self.body_b(),
             shell: self.info_b().shell,
             piece: self.item_b.element,
+            polyhedron,
             point_b: *p,
             point_a: local,
             since: self.motion().since_commit.as_ref(),
             remembers: self.context.remembers_entry,
         }
         .face()
+    }
+
+    /// Returns the convex solid to which B's polyhedron belongs, and the pair with the piece that stands for it; `None`
+    /// if its pieces act one by one.
+    pub fn on_solid(&self) -> Option<(Self, &'a Polyhedron)> {
+        let (item_b, solid) = self.body_b().convex_solid(self.item_b)?;
+        Some((Self { item_b, ..*self }, solid))
+    }
+
+    /// Returns true if another piece of a convex solid has found the contacts of A's element with it.
+    pub fn is_done(&self, found: &ChunkCandidates<'_>) -> bool {
+        let has_walls = !self.body_b().polyhedra[self.item_b.element as usize].planes().all_active;
+        let key = |other: &ContactCandidate| ContactKey { end: 0, ..other.key };
+        has_walls && found.list.iter().any(|other| key(other) == self.key())
     }
 
     pub fn key(&self) -> ContactKey {
@@ -249,8 +270,16 @@ impl<'a> ElementPair<'a> {
     }
 
     /// Adds the contact of a capsule's axis with an edge between its ends.
-    pub fn between_ends(&self, crossing: &Interference, found: &mut ChunkCandidates<'_>) {
-        self.emit(self.key_at(BETWEEN_ENDS), crossing, found, |out| out.share(true));
+    pub fn between_ends(
+        &self,
+        crossing: &Interference,
+        status: CandidateStatus,
+        found: &mut ChunkCandidates<'_>,
+    ) {
+        self.emit(self.key_at(BETWEEN_ENDS), crossing, found, |out| {
+            out.share(true);
+            out.status = status;
+        });
     }
 
     /// Adds the contact of a cylinder's side with an edge between its end discs.

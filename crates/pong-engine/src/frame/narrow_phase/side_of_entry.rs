@@ -54,6 +54,8 @@ pub(crate) struct PolyhedronEntry<'a> {
     pub shell: u32,
     /// Index of the polyhedron in B's movable group.
     pub piece: u32,
+    /// The polyhedron, or the convex solid for which it stands.
+    pub polyhedron: &'a Polyhedron,
     /// The point in A's frame. Its earlier position in B's frame is computed only if needed.
     pub point_a: &'a Vec3,
     pub since: Option<&'a SinceCommit>,
@@ -63,10 +65,10 @@ pub(crate) struct PolyhedronEntry<'a> {
     pub remembers: bool,
 }
 
-impl PolyhedronEntry<'_> {
+impl<'a> PolyhedronEntry<'a> {
     /// Current face of entry and pushing face for the point; `None` if the piece has no active face.
     pub fn face(&self) -> Option<EntryFace> {
-        let polyhedron = self.polyhedron();
+        let polyhedron = self.polyhedron;
         if !self.remembers {
             let face = shallowest_face(&self.point_b, polyhedron)?;
             return Some(EntryFace::new(face, face));
@@ -84,10 +86,6 @@ impl PolyhedronEntry<'_> {
         self.since.map(|since| since.x_ba.point(self.point_a))
     }
 
-    fn polyhedron(&self) -> &Polyhedron {
-        &self.body.polyhedra[self.piece as usize]
-    }
-
     /// Face of entry in this piece by the records; `None` without a usable record.
     ///
     /// If the remembered face belongs to another piece of the surface, the result is the active face through
@@ -97,12 +95,12 @@ impl PolyhedronEntry<'_> {
         let with_face = || self.records.iter().filter(|record| record.entry_face != NO_FACE);
         let record =
             with_face().find(|record| record.element_b == self.piece).or_else(|| with_face().next())?;
-        let faces = &self.body.polyhedra.get(record.element_b as usize)?.faces;
-        let old = faces.get(record.entry_face as usize)?;
+        let face_of = |polyhedron: &'a Polyhedron| polyhedron.faces.get(record.entry_face as usize);
         if record.element_b == self.piece {
-            return Some(record.entry_face as usize).filter(|_| old.active);
+            return face_of(self.polyhedron).filter(|face| face.active).map(|_| record.entry_face as usize);
         }
-        let polyhedron = self.polyhedron();
+        let old = face_of(self.body.polyhedra.get(record.element_b as usize)?)?;
+        let polyhedron = self.polyhedron;
         let entry = self.earlier_b().and_then(|earlier| entry_of_line(&earlier, &self.point_b, polyhedron));
         match entry {
             // The path left the body and entered it again: the remembered face no longer counts.
@@ -115,7 +113,7 @@ impl PolyhedronEntry<'_> {
     /// through an active face of the surface, it is the face of least depth; `None` if the piece has no
     /// active face.
     fn entered_by(&self) -> Option<usize> {
-        let polyhedron = self.polyhedron();
+        let polyhedron = self.polyhedron;
         let entry = self.earlier_b().and_then(|earlier| entry_of_line(&earlier, &self.point_b, polyhedron));
         match entry {
             Some(entry) if self.came_in_by(entry.face, entry.at) => Some(entry.face),
@@ -130,7 +128,7 @@ impl PolyhedronEntry<'_> {
     /// there. A path through an internal face did not, nor did one that came out of another primitive of a declared
     /// surface.
     fn came_in_by(&self, face: usize, at: f64) -> bool {
-        let polyhedron = self.polyhedron();
+        let polyhedron = self.polyhedron;
         if !polyhedron.faces[face].active || !self.body.is_joint(self.shell) {
             return polyhedron.faces[face].active;
         }
@@ -161,7 +159,7 @@ impl PolyhedronEntry<'_> {
                 best = Some((entry.at, face.normal));
             }
         }
-        best.and_then(|(_, normal)| face_most_along(&normal, &self.point_b, self.polyhedron()))
+        best.and_then(|(_, normal)| face_most_along(&normal, &self.point_b, self.polyhedron))
     }
 }
 

@@ -5,17 +5,21 @@ use crate::frame::broad_phase::transformed::TransformedPrimitive;
 use crate::frame::narrow_phase::candidate::CandidateStatus;
 use crate::frame::narrow_phase::element_pair::{Ball, ChunkCandidates, ElementPair, end_spheres, wrong_kind};
 use crate::frame::narrow_phase::on_triangle::{Centre, on_triangle, thickness_for_disc};
+use crate::state::ContactRole;
+use pong_geometry::interference::axis_triangle::{AxisLine, is_beside_edge};
+use pong_geometry::interference::bar_polyhedron::{capsule_solid, segment_solid};
 use pong_geometry::interference::capsule_edge::{ConvexEdge, capsule_edge};
 use pong_geometry::interference::capsule_polyhedron::CapsuleAtPiece;
 use pong_geometry::interference::ellipsoid_polyhedron::ellipsoid_piece;
 use pong_geometry::interference::end_disc::EndDisc;
 use pong_geometry::interference::line_segment_polyhedron::{AtWall, line_segment_piece};
 use pong_geometry::interference::side_edge::{axis_passes_through, flat_way_out, side_edge, surely_overlaps};
+use pong_geometry::interference::sphere_polyhedron::sphere_inside_polyhedron;
 use pong_geometry::interference::triangle_features::{EdgeClass, TriangleView};
 use pong_geometry::interference::two_ended_bore::{capsule_bore, cylinder_bore, segment_bore};
 use pong_geometry::interference::two_ended_round::EndContact;
 use pong_geometry::interference::{Feature, Interference};
-use pong_geometry::primitive::{Capsule, Containment, Frustum, Polyhedron};
+use pong_geometry::primitive::{Capsule, Containment, Frustum, Polyhedron, Sphere};
 
 /// Adds the contacts of a capsule with a piece of a body: those of the end spheres, and those of the convex
 /// edges that the axis crosses between them.
@@ -26,15 +30,66 @@ pub(super) fn capsule_polyhedron(
 ) {
     let TransformedPrimitive::Capsule(capsule) = a else { wrong_kind(a) };
     let polyhedron = &pair.body_b().polyhedra[pair.item_b.element as usize];
+    if let Some((pair, solid)) = pair.on_solid() {
+        return capsule_on_solid(&pair, capsule, solid, found);
+    }
     let Some(at_piece) = CapsuleAtPiece::new(capsule, polyhedron) else { return };
     for ball in Ball::at_ends(&end_spheres(capsule)) {
         ball_on_piece(pair, &ball, found);
     }
-    at_piece.each_crossing(|crossing| pair.between_ends(crossing, found));
+    at_piece.each_crossing(|crossing| pair.between_ends(crossing, CandidateStatus::Front, found));
+}
+
+/// Adds the contacts of a capsule with a convex solid. An end whose centre is inside has the face by which it
+/// entered; once the axis is sunk in, only these faces, their neighbours and edges push.
+fn capsule_on_solid(
+    pair: &ElementPair<'_>,
+    capsule: &Capsule,
+    polyhedron: &Polyhedron,
+    found: &mut ChunkCandidates<'_>,
+) {
+    if pair.is_done(found) {
+        return;
+    }
+    let locals = &pair.body_a().capsules[pair.item_a.element as usize].ends;
+    let keys = [0, 1].map(|end| pair.key_at(end));
+    let entries = [0, 1].map(|end: usize| {
+        let is_inside = polyhedron.contains(&capsule.ends[end]);
+        let remembered = is_inside.then(|| pair.context.memory.under(&keys[end]))?;
+        let face = pair.entry_face(polyhedron, &remembered, &locals[end], &capsule.ends[end])?;
+        Some((face, remembered.range))
+    });
+    let entered: [Option<usize>; 2] = entries.map(|entry| entry.map(|(face, _)| face.pushes()));
+    let contacts = match entered {
+        [None, None] => capsule_solid(capsule, polyhedron, &[]),
+        [Some(face), None] | [None, Some(face)] => capsule_solid(capsule, polyhedron, &[face]),
+        [Some(one), Some(other)] => capsule_solid(capsule, polyhedron, &[one, other]),
+    };
+    for end in 0..2 {
+        let contact = contacts[end].as_ref();
+        // An end inside that carries nothing keeps its face.
+        let idle = || {
+            let (face, _) = entries[end]?;
+            let center = capsule.ends[end];
+            let sphere = Sphere { center, radius: capsule.radius };
+            Some(sphere_inside_polyhedron(&sphere, polyhedron, face.pushes()))
+        };
+        let Some(interference) = contact.map(|contact| contact.interference).or_else(idle) else { continue };
+        pair.emit(keys[end], &interference, found, |out| {
+            out.half = true;
+            match contact {
+                Some(contact) => out.weight = contact.share,
+                None => out.role = ContactRole::Tracked,
+            }
+            if let Some((face, range)) = entries[end] {
+                (out.entry_face, out.remembered) = (face.reached(), Some(range));
+            }
+        });
+    }
 }
 
 /// Adds the contacts of a capsule with a triangle: those of the end spheres, and those of the convex and free
-/// edges that the axis crosses.
+/// edges that the axis crosses. An edge that is beside the axis, but not crossed by it, gives a `StandIn`.
 pub(super) fn capsule_triangle(
     pair: &ElementPair<'_>,
     a: &TransformedPrimitive,
@@ -44,8 +99,26 @@ pub(super) fn capsule_triangle(
     for ball in Ball::at_ends(&end_spheres(capsule)) {
         ball_on_triangle(pair, &ball, false, found);
     }
+    let (set, triangle) = (&pair.body_b().triangles, pair.item_b.element);
+    let may_push = set.triangles[triangle as usize].may_push;
+    if !(0..3).any(|k| may_push.edge(k)) || AxisLine::new(capsule).misses(&set.corners(triangle)) {
+        return;
+    }
+    let mut is_told = false;
     each_edge_of_triangle(pair, |edge| {
-        capsule_edge(capsule, edge).iter().for_each(|crossing| pair.between_ends(crossing, found));
+        if let Some(crossing) = capsule_edge(capsule, edge) {
+            is_told = true;
+            pair.between_ends(&crossing, CandidateStatus::Front, found);
+        } else if !is_told && is_beside_edge(capsule, edge) {
+            is_told = true;
+            let beside = Interference {
+                depth: capsule.radius,
+                normal_b: edge.normals_b[0],
+                deepest_b: edge.ends_b[0],
+                feature: edge.feature,
+            };
+            pair.between_ends(&beside, CandidateStatus::StandIn, found);
+        }
     });
 }
 
@@ -223,6 +296,12 @@ pub(super) fn line_segment_polyhedron(
 ) {
     let TransformedPrimitive::Segment(segment) = a else { wrong_kind(a) };
     let polyhedron = &pair.body_b().polyhedra[pair.item_b.element as usize];
+    if let Some((pair, solid)) = pair.on_solid() {
+        return match pair.is_done(found) {
+            true => (),
+            false => emit_shares(&pair, segment, segment_solid(segment, solid), found),
+        };
+    }
     for (end, found_there) in line_segment_piece(segment, polyhedron).iter().enumerate() {
         let Some((contact, at_wall)) = found_there else { continue };
         let status = status_of_end(contact, *at_wall, polyhedron);
@@ -286,9 +365,8 @@ pub(super) fn emit_halves<A>(
     }
 }
 
-/// Adds the contacts of a body with two ends on a round solid: of a segment or capsule at each end of the overlap and,
-/// on a cylinder or a cone, at the deepest point; of a cylinder or cone at places of its rims. Each contact has half a
-/// spring, and its share as weight.
+/// Adds the contacts of a body with two ends on a round solid: of a segment or capsule at each end of the overlap, of a
+/// cylinder or cone at places of its rims. Each contact has half a spring, and its share as weight.
 pub(super) fn emit_shares<A>(
     pair: &ElementPair<'_>,
     _: &A,

@@ -34,7 +34,7 @@ pub(super) fn point_polyhedron(
     let local = &pair.body_a().points[pair.item_a.element as usize].position;
     let key = pair.key();
     let remembered = pair.context.memory.under(&key);
-    let Some(face) = pair.entry_face(&remembered, local, &point.position) else { return };
+    let Some(face) = pair.entry_face(polyhedron, &remembered, local, &point.position) else { return };
     let contact = point_below_face(&point.position, polyhedron, face.pushes());
     if let Some(contact) = contact {
         pair.emit(key, &contact, found, |out| {
@@ -71,7 +71,7 @@ pub(super) fn ball_on_piece(pair: &ElementPair<'_>, ball: &Ball<'_>, found: &mut
     let center_a = pair.center_a(ball);
     let key = pair.key_at(ball.end.unwrap_or(0));
     let remembered = pair.context.memory.under(&key);
-    let Some(face) = pair.entry_face(&remembered, center_a, &sphere.center) else { return };
+    let Some(face) = pair.entry_face(polyhedron, &remembered, center_a, &sphere.center) else { return };
     let contact = sphere_inside_polyhedron(sphere, polyhedron, face.pushes());
     pair.emit(key, &contact, found, |out| {
         out.share(ball.end.is_some());
