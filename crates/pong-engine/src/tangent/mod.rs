@@ -42,7 +42,6 @@ use blocks::DirectionSlopes;
 use contact::Moving;
 use moves::{Moves, Touch};
 use nalgebra::RowVector6;
-use pong_geometry::Vec3;
 use pong_geometry::extension::PrimitiveRef;
 use pong_geometry::interference::two_capsules::TwoAxes;
 use pong_geometry::interference::two_ended_round::BarOnFrustum;

@@ -1,8 +1,8 @@
 //! Capsules and segments on convex solids: the energy against its definition by planes, the wrench against the
 //! energy, closed forms, and invariances.
 
-use crate::common::{cuboid, fibonacci_sphere, random_motion, stretched_hull};
 use crate::common::paths::gained;
+use crate::common::{cuboid, fibonacci_sphere, random_motion, stretched_hull};
 use crate::two_capsules::{capsule, moved};
 use pong_geometry::bounding::Bounded;
 use pong_geometry::interference::bar_polyhedron::{capsule_solid, segment_solid};
