@@ -32,7 +32,7 @@ const KNOWN: [(&str, u64, u64); 9] = [
     ("crowd", 0xa6efc9208413bcf4, 0x6900a47b22bdebb9),
     ("bowl", 0x776b53145068c012, 0xf1abfd87a2c723bd),
     ("swarm", 0xc0c805106b1b60fc, 0x2f2f4475acb7765d),
-    ("round", 0x62d64be2a9b9fa9e, 0xcabd6dd771695f68),
+    ("round", 0xc8be6eca3bfbe9cb, 0x62747715ee1e1d39),
 ];
 
 /// A scene run by the caller alone, with the data needed to continue from any frame.
