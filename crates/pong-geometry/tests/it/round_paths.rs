@@ -150,7 +150,7 @@ fn row(a: Kind, b: Kind, paths: usize) -> Option<Row> {
     Some(row)
 }
 
-/// Of a thousand paths of a pair none but one may gain or lose more than 1e-9 of the largest energy on its way: in rare poses
+/// At most one path in a thousand of a pair gains or loses more than 1e-9 of the largest energy on its way: in rare poses
 /// a search may end in another minimum (docs/theory.md, 2.8, limits).
 #[test]
 fn round_pairs_gain_and_lose_nothing() {
