@@ -54,6 +54,19 @@ def install(name, path):
     bpy.ops.wm.save_userpref()
 
 
+def refuse_other_platform(folder):
+    """Blender refuses a zip without the wheel of this system, and says for which ones it is."""
+    wheel = folder / "pong-0.1.0-cp310-abi3-win_arm64.whl"
+    wheel.write_bytes(Path(os.environ["PONG_WHEEL"]).read_bytes())
+    tool = [sys.executable, str(BLENDER / "build_zips.py"), "pong_viz", "--wheel", str(wheel), "-o", str(folder / "other")]
+    path = subprocess.run(tool, check=True, capture_output=True, text=True).stdout.strip()
+    # Its words go to the console, and to no exception.
+    done = subprocess.run([sys.executable, str(HERE), "--install", path, str(folder)], capture_output=True, text=True)
+    told = done.stdout + done.stderr
+    assert "This platform (" in told and "isn't one of (windows-arm64)" in told, told
+    assert not list(folder.glob("extensions/*/pong_viz")), "installed in spite of it"
+
+
 def installed(name):
     return f"bl_ext.user_default.{name}"
 
@@ -141,7 +154,11 @@ def main():
     if sys.argv[1] == "--use":
         use(folder)
         leave()
+    if sys.argv[1] == "--install":
+        install("pong_viz", sys.argv[2])
+        leave()
     assert Path(os.environ["BLENDER_USER_RESOURCES"]).resolve() == folder.resolve()
+    refuse_other_platform(folder)
     for name in MUST_HOLD:
         install(name, built(name, folder))
     environment = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}

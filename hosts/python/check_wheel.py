@@ -55,6 +55,8 @@ def check_library(tags: str, path: Path) -> str:
         foreign = {name for name in found.needs if not WINDOWS.fullmatch(name)}
     else:
         foreign = {name for name in found.needs if not name.startswith(("/usr/lib/", "/System/", "@rpath/_pong"))}
+    if not found.signed and processor == "aarch64":
+        raise Unfit(f"{path.name} has no signature or that of another file, so that macOS does not load it")
     if foreign:
         raise Unfit(f"{path.name} needs {', '.join(sorted(foreign))}, which the system does not bring")
     return str(found)

@@ -38,6 +38,7 @@ enum On {
     Capsule,
     Cylinder,
     Cone,
+    Ellipsoid,
 }
 
 const fn hull(mover: Mover, vertices: usize, wanted: Option<f64>) -> Case {
@@ -52,7 +53,7 @@ const fn round(mover: Mover, on: On) -> Case {
     Case { mover, on, wanted: [None, None] }
 }
 
-const CASES: [Case; 36] = [
+const CASES: [Case; 46] = [
     hull(Mover::Point, 8, Some(2.0)),
     hull(Mover::Point, 18, Some(2.0)),
     hull(Mover::Point, 66, Some(2.0)),
@@ -89,6 +90,16 @@ const CASES: [Case; 36] = [
     round(Mover::Ray, On::Capsule),
     round(Mover::Ray, On::Cylinder),
     round(Mover::Ray, On::Cone),
+    round(Mover::Ellipsoid, On::Ellipsoid),
+    round(Mover::Ellipsoid, On::Capsule),
+    round(Mover::Ellipsoid, On::Cylinder),
+    round(Mover::Ellipsoid, On::Cone),
+    hull(Mover::Cylinder, 8, None),
+    hull(Mover::Cylinder, 18, None),
+    hull(Mover::Cylinder, 66, None),
+    triangle(Mover::Cylinder, None),
+    round(Mover::Cylinder, On::Cylinder),
+    round(Mover::Cylinder, On::Cone),
 ];
 
 struct Tables {
@@ -221,6 +232,7 @@ impl Case {
             On::Capsule => Target::Capsule,
             On::Cylinder => Target::Cylinder,
             On::Cone => Target::Cone,
+            On::Ellipsoid => Target::Ellipsoid,
         }
     }
 

@@ -1,6 +1,7 @@
 //! MuJoCo, through `shim/mujoco.c`.
 
 use super::{AnswerFrame, PairPeer, Peer, hull_of, pose_numbers};
+use crate::hull;
 use crate::pairs::{
     Answer, HALF_LENGTH, Mover, Queries, RADIUS, RAY, ROUND_HALF_LENGTH, SEMI_AXES, TARGET_ROUND, Target,
 };
@@ -152,7 +153,7 @@ pub struct MujocoPair {
 }
 
 impl MujocoPair {
-    /// Builds one pair; `None` for the triangle, which MuJoCo does not have. Cones are polyhedra.
+    /// Builds one pair; `None` for the triangle, which MuJoCo does not have. Cones are polyhedra, and do not move.
     pub fn new(mover: Mover, target: &Target) -> Option<Self> {
         const THIN: f64 = 1e-9;
         let shape = match mover {
@@ -172,6 +173,9 @@ impl MujocoPair {
             }
             (_, Target::Cylinder) => {
                 (String::new(), format!("type=\"cylinder\" size=\"{radius} {half_length}\""))
+            }
+            (_, Target::Ellipsoid) => {
+                (String::new(), format!("type=\"ellipsoid\" size=\"{}\"", numbers(&hull::SEMI_AXES)))
             }
             _ => return None,
         };

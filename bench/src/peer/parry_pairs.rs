@@ -2,7 +2,7 @@
 
 use super::parry::{pose, vector};
 use super::{AnswerFrame, PairPeer};
-use crate::hull::{Hull, TRIANGLE};
+use crate::hull::{self, Hull, TRIANGLE};
 use crate::ours::Elements;
 use crate::pairs::{
     Answer, HALF_LENGTH, Mover, Queries, RADIUS, RAY, ROUND_HALF_LENGTH, SEMI_AXES, TARGET_ROUND, Target,
@@ -30,16 +30,29 @@ enum Shapes {
     /// A cylinder along y, as is the cone.
     Cylinder(Cylinder),
     Cone(Cone),
+    Ellipsoid(Ellipsoid),
 }
 
 /// An ellipsoid, given by its support function.
-struct Ellipsoid;
+struct Ellipsoid {
+    semi_axes: Vector,
+}
 
 impl SupportMap for Ellipsoid {
     fn local_support_point(&self, direction: Vector) -> Vector {
-        let semi_axes = Vector::from(SEMI_AXES);
-        let scaled = direction * semi_axes;
-        scaled * semi_axes / scaled.length()
+        let scaled = direction * self.semi_axes;
+        scaled * self.semi_axes / scaled.length()
+    }
+}
+
+/// The moving cylinder, along z.
+struct AlongZ;
+
+impl SupportMap for AlongZ {
+    fn local_support_point(&self, direction: Vector) -> Vector {
+        let aside = Vector::new(direction.x, direction.y, 0.0);
+        let rim = aside * (RADIUS / aside.length().max(f64::MIN_POSITIVE));
+        Vector::new(rim.x, rim.y, ROUND_HALF_LENGTH.copysign(direction.z))
     }
 }
 
@@ -49,7 +62,7 @@ impl Parry {
     /// # Panics
     /// If parry refuses the hull.
     pub fn new(mover: Mover, target: &Target) -> Option<Self> {
-        if matches!(mover, Mover::Cylinder | Mover::Cone) {
+        if mover == Mover::Cone {
             return None;
         }
         let ([_, half_length], radius) = TARGET_ROUND;
@@ -62,6 +75,7 @@ impl Parry {
             Target::Capsule => Shapes::Capsule(Capsule::new_z(half_length, radius)),
             Target::Cylinder => Shapes::Cylinder(Cylinder::new(half_length, radius)),
             Target::Cone => Shapes::Cone(Cone::new(half_length, radius)),
+            Target::Ellipsoid => Shapes::Ellipsoid(Ellipsoid { semi_axes: Vector::from(hull::SEMI_AXES) }),
             _ => return None,
         };
         Some(Self { mover, target })
@@ -117,6 +131,7 @@ impl Parry {
             Shapes::Capsule(b) => self.on(b, answers, x_ba),
             Shapes::Cylinder(b) => self.on(b, answers, x_ba),
             Shapes::Cone(b) => self.on(b, answers, x_ba),
+            Shapes::Ellipsoid(b) => self.touching(b, answers, x_ba),
         }
     }
 
@@ -125,19 +140,30 @@ impl Parry {
             Mover::Point => each(answers, x_ba, |x| point(x, b)),
             Mover::Sphere => each(answers, x_ba, |x| ball(x, b)),
             Mover::Ray => each(answers, x_ba, |x| ray(x, b)),
+            _ => self.touching(b, answers, x_ba),
+        }
+    }
+
+    /// Contacts by support functions.
+    fn touching(&self, b: &impl SupportMap, answers: &mut [Answer], x_ba: impl Fn(usize) -> Pose) {
+        match self.mover {
             Mover::Segment => {
                 let half = Vector::new(0.0, 0.0, HALF_LENGTH);
                 let a = Segment::new(-half, half);
                 each(answers, x_ba, |x| touch(contact_support_map_support_map(x, b, &a, 0.0)));
             }
             Mover::Ellipsoid => {
-                each(answers, x_ba, |x| touch(contact_support_map_support_map(x, b, &Ellipsoid, 0.0)));
+                let a = Ellipsoid { semi_axes: Vector::from(SEMI_AXES) };
+                each(answers, x_ba, |x| touch(contact_support_map_support_map(x, b, &a, 0.0)));
             }
             Mover::Capsule => {
                 let a = capsule();
                 each(answers, x_ba, |x| touch(contact_support_map_support_map(x, b, &a, 0.0)));
             }
-            Mover::Cylinder | Mover::Cone => unreachable!("not one of W1's"),
+            Mover::Cylinder => {
+                each(answers, x_ba, |x| touch(contact_support_map_support_map(x, b, &AlongZ, 0.0)));
+            }
+            Mover::Point | Mover::Sphere | Mover::Ray | Mover::Cone => unreachable!("tested otherwise"),
         }
     }
 }

@@ -15,7 +15,7 @@
 use crate::coupling::surely_stable_with;
 use crate::mass::{GroupMass, SpringRates, StepPlan};
 use crate::mobility::{Vec6, largest_eigenvalue};
-use crate::places::yield_at_ends;
+use crate::places::{yield_at_ends, yields_on_round};
 use crate::setting::Setting;
 use crate::spring::ContactSprings;
 use nalgebra::DMatrix;
@@ -64,9 +64,15 @@ pub fn acting_report(
             continue;
         }
         let [a, b] = primitives_of(&contact);
-        if yield_at_ends(kind_of(&setting, a), kind_of(&setting, b)) {
+        let kinds = [a, b].map(|primitive| kind_of(&setting, primitive));
+        let [both_yield, a_yields] =
+            [yield_at_ends, yields_on_round].map(|yields| yields(kinds[0], kinds[1]));
+        if both_yield || a_yields {
             if axes.insert((a, b)) {
-                at_ends.extend(known.at_ends_of_axes(&setting, &contact));
+                at_ends.extend(match both_yield {
+                    true => known.at_ends_of_axes(&setting, &contact),
+                    false => known.at_ends_of_a(&setting, &contact),
+                });
             }
             known.stiffens = 0.0;
         }
@@ -113,8 +119,8 @@ fn sum_of_springs(setting: &Setting<'_>, groups: &BTreeSet<usize>) -> SpringRate
 struct Acting {
     springs: ContactSprings,
     weight: f64,
-    /// Part of the normal spring that the stiffness has: the weight, but 0 for a contact of two capsules, whose springs
-    /// count at the ends of their axes.
+    /// Part of the normal spring that the stiffness has: the weight, but 0 for a contact of bodies that yield at the ends of
+    /// their axes, whose springs count there.
     stiffens: f64,
     /// Unit normal from B to A, in B's frame.
     normal: Vec3,
@@ -140,11 +146,8 @@ impl Acting {
         let x_ba = contact.x_ba;
         let mut all = Vec::new();
         for (k, (group, primitive)) in primitives_of(contact).into_iter().enumerate() {
-            let body = setting.scene.body(group);
-            let info = &body.primitives[primitive as usize];
-            let facts = body.element(info.kind, info.elements.start).facts();
-            let (Some(mobility), Some((ends, _))) =
-                (setting.mobilities[group].as_ref(), facts.and_then(|facts| facts.core()))
+            let (Some(mobility), Some(ends)) =
+                (setting.mobilities[group].as_ref(), ends_of_axis(setting, (group, primitive)))
             else {
                 continue;
             };
@@ -157,6 +160,25 @@ impl Acting {
         }
         all
     }
+
+    /// Half springs along this normal at the two ends of A's axis, which both bodies feel.
+    fn at_ends_of_a(&self, setting: &Setting<'_>, contact: &PushingContact<'_>) -> Vec<Self> {
+        let ends = ends_of_axis(setting, (contact.group_a, contact.primitive_a)).into_iter().flatten();
+        let at_end = |end: Vec3| {
+            let rows = rows_of(setting, &PushingContact { point_b: contact.x_ba.point(&end), ..*contact });
+            let springs = ContactSprings { friction: None, ..self.springs };
+            Self { rows, stiffens: 0.5, springs, ..self.clone() }
+        };
+        ends.map(at_end).collect()
+    }
+}
+
+/// Ends of the axis of a primitive, in the frame of its movable group, if it has one.
+fn ends_of_axis(setting: &Setting<'_>, (group, primitive): (usize, u32)) -> Option<[Vec3; 2]> {
+    let body = setting.scene.body(group);
+    let info = &body.primitives[primitive as usize];
+    let core = body.element(info.kind, info.elements.start).facts()?.core()?;
+    Some(core.0)
 }
 
 /// The axes of B's frame.

@@ -39,7 +39,18 @@ impl Compliance {
 /// Returns true for kinds whose pairs yield at the ends of their axes (docs/theory.md, 2.8): no motion of either body
 /// meets more than a whole spring at each end of its axis.
 pub(crate) fn yield_at_ends(kind_a: PrimitiveKind, kind_b: PrimitiveKind) -> bool {
-    matches!(kind_a, PrimitiveKind::LineSegment | PrimitiveKind::Capsule) && kind_b == PrimitiveKind::Capsule
+    match kind_b {
+        PrimitiveKind::Capsule => matches!(kind_a, PrimitiveKind::LineSegment | PrimitiveKind::Capsule),
+        PrimitiveKind::Triangle => kind_a == PrimitiveKind::Capsule,
+        _ => false,
+    }
+}
+
+/// Returns true for kinds of which A alone yields at the ends of its axis (docs/theory.md, 2.8): no motion of either body
+/// meets more than half a spring at each end of A's axis, however far it overhangs.
+pub(crate) fn yields_on_round(kind_a: PrimitiveKind, kind_b: PrimitiveKind) -> bool {
+    matches!(kind_a, PrimitiveKind::LineSegment | PrimitiveKind::Capsule)
+        && matches!(kind_b, PrimitiveKind::Cylinder | PrimitiveKind::Cone)
 }
 
 pub(crate) type Compliances = BTreeMap<(PrimitiveKind, u32), Compliance>;

@@ -19,8 +19,9 @@ pub struct Contact {
     /// Face, edge or vertex of B that pushes. Of pieces that form a convex solid together (docs/theory.md, 2.8), a capsule
     /// or a line segment touches this solid: side B names the first piece, and the number is one of the solid.
     pub feature: Feature,
-    /// Location on a segment or a round part with two ends: 0 and 1 at its ends, 2 between them, above 2
-    /// other points of a cylinder's or cone's rims (docs/theory.md, 2.8). 0 for all other kinds. The bit 30
+    /// Location on a segment or a round part with two ends: 0 and 1 at its ends, 2 between them (of a capsule on
+    /// triangles 2 and 3, the lower and the upper end of what a feature carries), above 2 other points of a
+    /// cylinder's or cone's rims (docs/theory.md, 2.8). 0 for all other kinds. The bit 30
     /// marks the two forces of a couple that resists rolling and spinning (docs/theory.md, 4).
     pub end: u32,
     /// Contact point c, where the force acts, m, in the common frame.

@@ -106,3 +106,13 @@ def test_a_library_of_another_platform_is_told_with_cause_and_cure(tmp_path):
         assert word in told()
     library.rename(package / "_pong.pyd")
     assert "has _pong.pyd, which cpython" in told()
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="the wheel is for Linux")
+def test_pip_refuses_what_does_not_fit(tmp_path):
+    fits, own = os.environ["WHEEL"], f"linux_{os.uname().machine}"
+    pip = [sys.executable, "-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--no-deps", "--only-binary", ":all:", "--target", str(tmp_path / "site")]
+    for wheel, version, platform in ((fits, "3.9", own), (retagged(tmp_path, "win_amd64"), "3.11", own), (fits, "3.11", "win_amd64")):
+        done = subprocess.run([*pip, "--python-version", version, "--platform", platform, str(wheel)], capture_output=True, text=True)
+        assert done.returncode != 0 and f"{pathlib.Path(wheel).name} is not a supported wheel on this platform" in done.stderr
+    assert not (tmp_path / "site").exists()

@@ -467,3 +467,26 @@ fn a_rod_that_rocks_on_another_is_within_the_bounds() {
         assert!(before.surely_stable_step() < longest(rate), "{half} {shift}");
     }
 }
+
+/// A light drum under a long bar rocks on the half springs at the ends of the bar, however short the drum is: what acts
+/// is judged by them.
+#[test]
+fn a_drum_that_rocks_under_a_long_bar_is_within_the_bounds() {
+    let drum = GroupMass { inertia: [0.1, 0.1, 0.1, 0.0, 0.0, 0.0], ..GroupMass::point(3.0) };
+    let bar = model("bar", "Capsule(name: \"c\", ends: ((-2,0,0),(2,0,0)), radius: 0.1)", K, "None");
+    let part = "Cylinder(name: \"d\", ends: ((-0.2,0,0),(0.2,0,0)), radius: 0.1)";
+    let log = model("log", part, f64::INFINITY, "None");
+    for shift in [0.0, 0.1, 1.9] {
+        let mut both = Meeting::new(&[&bar, &log], &[GroupMass::immovable(), drum]);
+        let acting = both.at(&[[shift, 0.0, 0.1999], [0.0; 3]], &plan(1e-4));
+        let tangent = both.world.tangents().unwrap();
+        let found = tangent[0].stiffness[1][1][(4, 4)];
+        if shift == 0.0 {
+            // ¼k·L², but for the force times the lever of the place below the drum's middle.
+            assert!(is_near(found, 0.25 * K * 16.0, 1e-3), "{found}");
+        }
+        // The force times its lever is not counted, here or elsewhere.
+        let rate = found / 0.1 * (1.0 - 1e-4);
+        assert!(acting.stiffness_rate > rate, "{shift}: {} < {rate}", acting.stiffness_rate);
+    }
+}

@@ -5,13 +5,14 @@
 //! |---|---|
 //! | `shape.rs` | radii of curvature of both surfaces at a contact |
 //! | `moves.rs`, `ray.rs` | derivatives of depth, normal and contact point with the relative pose |
-//! | `two_capsules.rs`, `bars.rs` | the same, and of the weights, where bodies with two ends yield |
+//! | `two_capsules.rs`, `bar_on_round.rs`, `bars.rs` | the same, and of the weights, where bodies with two ends yield |
 //! | `sharing.rs` | derivatives of the weights of contacts that share a spring |
 //! | `friction.rs`, `contact.rs` | derivatives of the force of one contact |
 //! | `resistance.rs` | derivatives of the couple that resists rolling and spinning |
 //! | `potential.rs` | incremental potential of a step |
 //! | `blocks.rs` | sum over the contacts of two groups; common axes |
 
+mod bar_on_round;
 mod bars;
 mod blocks;
 mod contact;
@@ -35,14 +36,15 @@ use crate::frame::{FrameContact, FrameResults};
 use crate::law::{FrictionProps, NormalProps};
 use crate::seal::Direction;
 use crate::state::ContactRole;
+use bar_on_round::moves_on_round;
 use bars::BarOnSolid;
 use blocks::DirectionSlopes;
 use contact::Moving;
 use moves::{Moves, Touch};
 use nalgebra::RowVector6;
-use pong_geometry::Vec3;
 use pong_geometry::extension::PrimitiveRef;
 use pong_geometry::interference::two_capsules::TwoAxes;
+use pong_geometry::interference::two_ended_round::BarOnFrustum;
 use pong_geometry::primitive::{PrimitiveKind, Ray};
 use pong_model::Item;
 use potential::Increment;
@@ -235,15 +237,9 @@ impl<'a> Frame<'a> {
         {
             return unknown(Missing::HostLaw);
         }
-        let of_bar = |at_end: Option<MovesAtEnd>| {
-            at_end.map(|MovesAtEnd { moves, pressing, weight }| (moves, pressing, weight))
-        };
-        let known = if let Some((axes, radius)) = self.two_axes(contact) {
-            of_bar(moves_at_end(&axes, radius, contact.found.key.end as usize))
-        } else if let Some(bar) = self.bar_on_solid(contact) {
-            of_bar(bar.moves_of(&contact.found))
-        } else {
-            self.moves(contact).map(|moves| (moves, moves.depth, RowVector6::zeros()))
+        let known = match self.of_yielding_ends(contact) {
+            Some(at_end) => at_end.map(|MovesAtEnd { moves, pressing, weight }| (moves, pressing, weight)),
+            None => self.moves(contact).map(|moves| (moves, moves.depth, RowVector6::zeros())),
         };
         let Some((moves, pressing, weight)) = known else { return unknown(Missing::Shapes) };
         Ok(Moving {
@@ -258,37 +254,30 @@ impl<'a> Frame<'a> {
         })
     }
 
-    /// Ends of a segment or a capsule A in B's frame, with its radius; `None` for other kinds.
-    fn bar(&self, contact: &FrameContact) -> Option<([Vec3; 2], f64)> {
-        let element_a = self.context.body_a.element(self.kind_a(contact), contact.found.element_a);
+    /// Motion of a contact of a segment or a capsule with a round part or a convex solid, `Some(None)` where it has none;
+    /// `None` for other kinds, and for pieces of other bodies.
+    fn of_yielding_ends(&self, contact: &FrameContact) -> Option<Option<MovesAtEnd>> {
+        let (context, found) = (self.context, &contact.found);
+        let element_a = context.body_a.element(self.kind_a(contact), found.element_a);
         let (ends, radius) = match element_a {
             PrimitiveRef::LineSegment(segment) => (segment.ends, 0.0),
             PrimitiveRef::Capsule(capsule) => (capsule.ends, capsule.radius),
             _ => return None,
         };
-        Some((ends.map(|end| self.context.motion.x_ba.point(&end)), radius))
-    }
-
-    /// A segment or a capsule and a convex solid; `None` for other kinds, and pieces of other bodies.
-    fn bar_on_solid(&self, contact: &FrameContact) -> Option<BarOnSolid<'a>> {
-        let found = &contact.found;
-        let (ends, radius) = self.bar(contact)?;
-        if found.kind_b != PrimitiveKind::Polyhedron {
-            return None;
+        let ends = ends.map(|end| context.motion.x_ba.point(&end));
+        let end = found.key.end as usize;
+        match context.body_b.element(found.kind_b, found.element_b) {
+            PrimitiveRef::Capsule(b) => Some(moves_at_end(&TwoAxes::new(&ends, radius, b), radius, end)),
+            PrimitiveRef::Cylinder(b) | PrimitiveRef::Cone(b) => {
+                Some(moves_on_round(&BarOnFrustum::new(&ends, radius, b), radius, end))
+            }
+            PrimitiveRef::Polyhedron(_) => {
+                let item = Item { primitive: found.primitive_b, element: found.element_b };
+                let (_, solid) = context.body_b.convex_solid(item)?;
+                Some(BarOnSolid { ends_b: ends, radius, solid }.moves_of(found))
+            }
+            _ => None,
         }
-        let item = Item { primitive: found.primitive_b, element: found.element_b };
-        let (_, solid) = self.context.body_b.convex_solid(item)?;
-        Some(BarOnSolid { ends_b: ends, radius, solid })
-    }
-
-    /// Axes of a segment or a capsule and a capsule, with the radius of A; `None` for other kinds.
-    fn two_axes(&self, contact: &FrameContact) -> Option<(TwoAxes, f64)> {
-        let (context, found) = (self.context, &contact.found);
-        let (ends, radius) = self.bar(contact)?;
-        let PrimitiveRef::Capsule(b) = context.body_b.element(found.kind_b, found.element_b) else {
-            return None;
-        };
-        Some((TwoAxes::new(&ends, radius, b), radius))
     }
 
     fn moves(&self, contact: &FrameContact) -> Option<Moves> {

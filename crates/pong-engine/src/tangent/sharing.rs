@@ -55,9 +55,14 @@ pub(super) fn weigh(kind_a: PrimitiveKind, contacts: &mut [Moving<'_>]) -> Optio
     // A cylinder has a closed form on what is flat. On edges its side shares with its discs, and the plate between two
     // cylinders with all places.
     let is_on_face = |moving: &Moving<'_>| moving.contact.found.feature.is_face();
+    let is_between = |moving: &Moving<'_>| moving.contact.found.key.end >= BETWEEN_ENDS;
     if matches!(kind_a, Cylinder | Cone)
         && (matches!(kind_b, Cylinder | Cone) || on_flat && !contacts.iter().all(is_on_face))
     {
+        return None;
+    }
+    // Neither have capsules that yield as one on triangles: their places move with both ends.
+    if kind_a == Capsule && kind_b == Triangle && contacts.iter().any(is_between) {
         return None;
     }
     let middle = contacts.partition_point(|moving| moving.contact.found.key.end < BETWEEN_ENDS);

@@ -43,24 +43,68 @@ pub(super) fn moves_at_end(axes: &TwoAxes, radius: f64, end: usize) -> Option<Mo
     let spreads = (places[0] * at[0] + places[1] * at[1]) * 4.0;
 
     let overlap = axes.overlap(&load);
-    let of_overlap = overlap.map(|place| of_end_of_overlap(axes, &along, place));
-    let (length, lengthens) = (overlap[1] - overlap[0], of_overlap[1] - of_overlap[0]);
-    // The share of this end is its lever over the length of the overlap.
-    let (share, of_share) = if length > 0.0 {
-        let other = 1 - end;
-        let sign = if end == 1 { 1.0 } else { -1.0 };
-        let share = sign * (at[0] - overlap[other]) / length;
-        (share, ((places[0] - of_overlap[other]) * sign - lengthens * share) / length)
-    } else {
-        (0.5, RowVector6::zeros())
+    let load = MovingLoad {
+        at: at[0],
+        goes: places[0],
+        spread,
+        spreads,
+        depth: -(normal.transpose() * vector),
+        normal_b: normal,
+        turned,
+        along_b: along,
+        radius,
     };
-    let at_contact = displacement_slopes(&axes.place_a(overlap[end]));
-    let deepest = at_contact + along * of_overlap[end] - turned * radius;
-    Some(MovesAtEnd {
-        pressing: -(normal.transpose() * at_contact),
-        moves: Moves { depth: -(normal.transpose() * vector), normal: turned, deepest },
-        weight: (of_share - spreads * (share / spread)) * (2.0 / spread),
-    })
+    let of_overlap =
+        overlap.map(|place| of_end_of_overlap(&axes.place_a(place), &load, place, &axes.away_at(place)));
+    Some(load.moves_at_end(end, &overlap, &of_overlap, &axes.place_a(overlap[end])))
+}
+
+/// A load on A's axis with its derivatives.
+pub(super) struct MovingLoad {
+    /// Its place on A's axis, −½…½, and the derivatives.
+    pub at: f64,
+    pub goes: RowVector6<f64>,
+    /// W and its derivatives.
+    pub spread: f64,
+    pub spreads: RowVector6<f64>,
+    /// Derivatives of the depth.
+    pub depth: RowVector6<f64>,
+    /// Normal and its derivatives.
+    pub normal_b: Vec3,
+    pub turned: Matrix3x6<f64>,
+    /// Vector along A's axis, m.
+    pub along_b: Vec3,
+    /// Radius of A, m.
+    pub radius: f64,
+}
+
+impl MovingLoad {
+    /// Returns the derivatives of the contact at end `end` of the overlap, which is at `place_b`, m.
+    pub fn moves_at_end(
+        &self,
+        end: usize,
+        overlap: &[f64; 2],
+        of_overlap: &[RowVector6<f64>; 2],
+        place_b: &Vec3,
+    ) -> MovesAtEnd {
+        let (length, lengthens) = (overlap[1] - overlap[0], of_overlap[1] - of_overlap[0]);
+        // The share of this end is its lever over the length of the overlap.
+        let (share, of_share) = if length > 0.0 {
+            let other = 1 - end;
+            let sign = if end == 1 { 1.0 } else { -1.0 };
+            let share = sign * (self.at - overlap[other]) / length;
+            (share, ((self.goes - of_overlap[other]) * sign - lengthens * share) / length)
+        } else {
+            (0.5, RowVector6::zeros())
+        };
+        let at_contact = displacement_slopes(place_b);
+        let deepest = at_contact + self.along_b * of_overlap[end] - self.turned * self.radius;
+        MovesAtEnd {
+            pressing: -(self.normal_b.transpose() * at_contact),
+            moves: Moves { depth: self.depth, normal: self.turned, deepest },
+            weight: (of_share - self.spreads * (share / self.spread)) * (2.0 / self.spread),
+        }
+    }
 }
 
 /// Derivatives of the load with its places held.
@@ -84,14 +128,22 @@ fn follow(curvature: &[[f64; 2]; 2], at: &[f64; 2], slopes: &[RowVector6<f64>; 2
     }
 }
 
-/// Derivatives of the place where A's axis leaves the reach of B.
-fn of_end_of_overlap(axes: &TwoAxes, along: &Vec3, place: f64) -> RowVector6<f64> {
-    let away = axes.away_at(place);
-    let rate = away.dot(along);
+/// Derivatives of an end of the overlap: where A's axis leaves the reach of B in the direction `away`, at an end of the axis,
+/// or at the load. `place` is its place on the axis, `place_b` the point, m.
+pub(super) fn of_end_of_overlap(
+    place_b: &Vec3,
+    load: &MovingLoad,
+    place: f64,
+    away: &Vec3,
+) -> RowVector6<f64> {
+    let rate = away.dot(&load.along_b);
     if place.abs() >= 0.5 || rate == 0.0 {
         return RowVector6::zeros();
     }
-    -(away.transpose() * displacement_slopes(&axes.place_a(place))) / pong_geometry::divisor(rate)
+    if place == load.at {
+        return load.goes;
+    }
+    -(away.transpose() * displacement_slopes(place_b)) / pong_geometry::divisor(rate)
 }
 
 #[cfg(test)]

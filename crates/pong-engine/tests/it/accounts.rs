@@ -260,8 +260,9 @@ fn with_accounts(mut scene: Scene, coupling: WrenchCoupling) -> Scene {
 fn accounts_close_and_change_no_answer() {
     for (use_number, coupling) in USES.into_iter().enumerate() {
         for (number, (scene, plain)) in scenes::all().into_iter().zip(scenes::all()).enumerate() {
-            // A short run has one use for each scene.
-            if !is_full() && number % USES.len() != use_number {
+            // A short run has one use for each scene; the bowl, which takes longer than all others, has one in any run.
+            let has_one = !is_full() || scene.name == "bowl";
+            if has_one && number % USES.len() != use_number {
                 continue;
             }
             let (scene, frames) = (with_accounts(scene, coupling), plain.frames.min(30));

@@ -2,6 +2,7 @@
 
 mod accounts;
 mod bars_on_pieces;
+mod bars_on_triangles;
 mod beyond_range;
 mod bores;
 mod broad_phase;

@@ -1,4 +1,5 @@
-//! Cylinders that roll, against closed forms: a wheel over seams, a coin on its rim, the rollers of a bearing.
+//! Cylinders that roll, against closed forms: a wheel over seams, a coin on its rim, a drum on rollers, logs on logs, the
+//! rollers of a bearing.
 
 use pong_engine::{Config, InterfaceId, State, World, WorldBuilder};
 use pong_executive::{BodyId, Integrator, MassProperties, Pose, RigidBody, Simulation, Twist, Vec3};
@@ -107,6 +108,104 @@ fn a_coin_rolls_on_its_rim() {
     let turned = axis.y.atan2(axis.x);
     println!("wandered {wandered:.1e} m, lean off {leaned:.1e} rad, after a turn {turned:.1e} rad");
     assert!(wandered < 1e-3 * radius && leaned < 2e-3 && turned.abs() < 0.02);
+}
+
+/// A cylinder around y, or around x, of the given half length and radius, m.
+fn log(name: &str, axis: &str, half: f64, radius: f64) -> String {
+    let end = |at: f64| if axis == "y" { format!("(0,{at:?},0)") } else { format!("({at:?},0,0)") };
+    format!("Cylinder(name: \"{name}\", ends: ({},{}), radius: {radius:?})", end(-half), end(half))
+}
+
+/// A drum of radius R in the groove between two rollers of radius r, their axes 2a apart: each carries W/(2 cos β) with
+/// sin β = a/(R + r), and yields by this load over the stiffness.
+#[test]
+fn a_drum_rests_on_two_rollers() {
+    const K: f64 = 1e6;
+    let (mass, radius, roller, apart) = (20.0, 0.2, 0.1, 0.18_f64);
+    let rollers = [-apart, apart].map(|x| {
+        format!("Cylinder(name: \"r{x:?}\", ends: (({x:?},-0.5,0),({x:?},0.5,0)), radius: {roller:?})")
+    });
+    let beta = (apart / (radius + roller)).asin();
+    let load = mass * G / (2.0 * beta.cos());
+    // Both yield along the line of centres, which turns with the sag.
+    let distance = radius + roller - load / K;
+    let height = (distance * distance - apart * apart).sqrt();
+    let inertia = 0.5 * mass * radius * radius;
+    let body = RigidBody::free("drum", MassProperties::principal(mass, [inertia, inertia, inertia]))
+        .at(Pose::new(Vec3::new(0.0, 0.0, height), [1.0, 0.0, 0.0, 0.0]));
+    let friction = "Bristle(mu: 0.3, damping: 2e3)";
+    let (mut simulation, drum) =
+        on_ground(&log("d", "y", 0.3, radius), &rollers.join(","), K, friction, body, 2e-4);
+    simulation.set_gravity(Vec3::new(0.0, 0.0, -G));
+    let mut moved = 0.0_f64;
+    for _ in 0..2_000 {
+        simulation.step().unwrap();
+        moved = moved.max((simulation.pose(drum).position - Vec3::new(0.0, 0.0, height)).norm());
+    }
+    // The closed form takes the load for the groove that is not pressed.
+    println!("sag {:.3e} m, moved {moved:.1e} m", load / K);
+    assert!(moved < 2e-3 * load / K);
+}
+
+/// A log lies across a fixed one and rocks on it without slipping, as a plank of half the thickness h on a cylinder of radius
+/// R: ω² = m·g·(R − h)/(I + m·h²).
+#[test]
+fn a_log_rocks_across_another() {
+    let (mass, radius, half, below) = (8.0, 0.1, 0.5, 0.2);
+    let across = mass * (3.0 * radius * radius + 4.0 * half * half) / 12.0;
+    let moments = [0.5 * mass * radius * radius, across, across];
+    let tilt = 0.01_f64;
+    // Rolled over the log below by the tilt: its contact is on this log, and moves along its own side.
+    let contact = Vec3::new(below * tilt.sin(), 0.0, below * tilt.cos());
+    let (up, along) = (Vec3::new(tilt.sin(), 0.0, tilt.cos()), Vec3::new(tilt.cos(), 0.0, -tilt.sin()));
+    let position = contact + up * (radius - mass * G / 1e7) - along * (below * tilt);
+    let pose = Pose::new(position, [(0.5 * tilt).cos(), 0.0, (0.5 * tilt).sin(), 0.0]);
+    let body = RigidBody::free("log", MassProperties::principal(mass, moments)).at(pose);
+    let friction = "Bristle(mu: 0.9, stiffness: 2e7, damping: 2e3)";
+    let ground = log("g", "y", 0.5, below);
+    let (mut simulation, upper) = on_ground(&log("u", "x", half, radius), &ground, 1e7, friction, body, 1e-4);
+    simulation.set_gravity(Vec3::new(0.0, 0.0, -G));
+    let rate = (mass * G * (below - radius) / (across + mass * radius * radius)).sqrt();
+    let tilt_of = |simulation: &Simulation| {
+        let axis = simulation.pose(upper).orientation * Vec3::x();
+        -axis.z
+    };
+    let mut off = 0.0_f64;
+    while simulation.time() < TAU / rate {
+        simulation.step().unwrap();
+        off = off.max((tilt_of(&simulation) - tilt * (rate * simulation.time()).cos()).abs());
+    }
+    println!("period {:.3} s, off {:.1e} of the tilt", TAU / rate, off / tilt);
+    assert!(off < 0.01 * tilt);
+}
+
+/// A log on top of a parallel one that is fixed: without friction it slides off where cos φ = ⅔·cos φ₀, rolling it leaves
+/// where cos φ = 4/7·cos φ₀, φ₀ the angle at which it was let go.
+#[test]
+fn a_log_leaves_a_parallel_one() {
+    let (mass, radius, below, start) = (2.0, 0.1, 0.2, 0.2_f64);
+    let inertia = 0.5 * mass * radius * radius;
+    let ground = log("g", "y", 0.5, below);
+    let frictions = [("None", 2.0 / 3.0), ("Bristle(mu: 50.0, stiffness: 1e7, damping: 500.0)", 4.0 / 7.0)];
+    for (friction, share) in frictions {
+        let distance = radius + below - mass * G * start.cos() / 1e7;
+        let pose = Pose::new(Vec3::new(start.sin(), 0.0, start.cos()) * distance, [1.0, 0.0, 0.0, 0.0]);
+        let body =
+            RigidBody::free("log", MassProperties::principal(mass, [inertia, inertia, inertia])).at(pose);
+        let (mut simulation, upper) =
+            on_ground(&log("u", "y", 0.4, radius), &ground, 1e7, friction, body, 2e-5);
+        simulation.set_gravity(Vec3::new(0.0, 0.0, -G));
+        let angle = loop {
+            simulation.step().unwrap();
+            let position = simulation.pose(upper).position;
+            if position.norm() > radius + below {
+                break position.x.atan2(position.z);
+            }
+        };
+        let expected = (share * start.cos()).acos();
+        println!("{friction}: leaves at {angle:.5} rad for {expected:.5}");
+        assert!((angle - expected).abs() < 5e-3, "{friction}: {angle} for {expected}");
+    }
 }
 
 /// Twelve rollers between a shaft and a bore of the same clearance: the shaft is displaced, each roller on its side by half of

@@ -2,8 +2,6 @@
 //! cylinder or cone). If they overlap, it is the minimum translation that separates them (docs/theory.md,
 //! 2.8).
 
-use super::Feature;
-use super::circles::Circle;
 use super::round_surface::{Nearest, ROUNDING, nearest_on_segment, of_capsule, of_frustum};
 use crate::primitive::{Capsule, Frustum};
 use crate::{Vec3, any_perpendicular, divisor};
@@ -15,18 +13,14 @@ pub(crate) struct Approach {
     pub distance: f64,
     /// Unit vector from the solid to the segment; in overlap, the direction of the minimum translation.
     pub normal_b: Vec3,
-    /// Point of the segment nearest to the solid; in overlap, its deepest point, m.
-    pub place_b: Vec3,
-    /// Feature of the solid that is nearest to the segment, or in overlap pushes it.
-    pub feature: Feature,
 }
 
 impl Capsule {
     /// Returns the distance or the minimum translation between a segment and the capsule.
     pub(crate) fn approach(&self, segment: &[Vec3; 2]) -> Approach {
         let [at, _] = nearest_of_segments(segment, &self.ends);
-        let Nearest { distance, normal_b, feature } = self.nearest_of(&at, segment);
-        Approach { distance, normal_b, place_b: at, feature }
+        let Nearest { distance, normal_b, .. } = self.nearest_of(&at, segment);
+        Approach { distance, normal_b }
     }
 
     /// Returns the point of the capsule's surface nearest to the point `place` of a segment. If `place` lies
@@ -91,66 +85,35 @@ fn common_perpendicular(segment: &[Vec3; 2], other: &[Vec3; 2]) -> Option<(Vec3,
 impl Frustum {
     /// Returns the distance or the minimum translation between a segment and the frustum.
     pub(crate) fn approach(&self, segment: &[Vec3; 2]) -> Approach {
-        /// Largest distance at which a segment counts as overlapping, relative to the frustum's size. Not
-        /// zero, because distances from a disc (a frustum without length) are never negative.
-        const INSIDE: f64 = 1e-13;
-        let inside = INSIDE * self.length.max(self.radii[0]).max(self.radii[1]);
-        let (place, nearest) = least_on_segment(segment, inside, |place| of_frustum(place, self));
-        if nearest.distance > inside {
-            let Nearest { distance, normal_b, feature } = nearest;
-            return Approach { distance, normal_b, place_b: place, feature };
+        let nearest = least_on_segment(segment, |place| of_frustum(place, self));
+        if nearest.distance > 0.0 {
+            return Approach { distance: nearest.distance, normal_b: nearest.normal_b };
         }
         TranslationSearch::new(segment, self).shortest()
     }
-
-    /// Returns the distance or the minimum translation between a segment and the disc at the frustum's end
-    /// `end`. `None` if their distance certainly exceeds `reach` (m).
-    pub(crate) fn approach_end(&self, end: usize, segment: &[Vec3; 2], reach: f64) -> Option<Approach> {
-        /// Margin relative to the coordinates, far above rounding.
-        const SLACK: f64 = 1e-9;
-        let (center, disc) = (self.ends[end], self.disc(end));
-        let [one, other] = segment.map(|place| self.axis.dot(&(place - center)));
-        let slack = SLACK * (segment[0].amax() + segment[1].amax() + center.amax() + reach);
-        if one.min(other) > reach + slack || one.max(other) < -reach - slack {
-            return None;
-        }
-        if one * other < 0.0 {
-            // Where the segment passes through the disc, `approach` would first search for a point in the
-            // disc, which converges slowly. So the minimum translation is searched at once.
-            let through = segment[0] + (segment[1] - segment[0]) * (one / divisor(one - other));
-            if (through - center).norm() < disc.radii[0] - slack {
-                return Some(TranslationSearch::new(segment, &disc).shortest());
-            }
-        }
-        Some(disc.approach(segment))
-    }
 }
 
-/// Returns the point of a segment nearest to a convex solid, with the solid's surface point nearest to it.
-/// The distance along the segment is convex and has the derivative `normal_b·along`, so the zero of the
-/// derivative is searched. The search stops at the first point whose distance is at most `enough` (m).
-fn least_on_segment(segment: &[Vec3; 2], enough: f64, nearest: impl Fn(&Vec3) -> Nearest) -> (Vec3, Nearest) {
+/// Returns the surface point of a convex solid nearest to a segment. The distance along the segment is convex and has the
+/// derivative `normal_b·along`, so the zero of the derivative is searched. The search stops at the first point inside.
+fn least_on_segment(segment: &[Vec3; 2], nearest: impl Fn(&Vec3) -> Nearest) -> Nearest {
     /// Largest slope that counts as zero, relative to the length of the segment.
     const FLAT: f64 = 4.0 * f64::EPSILON;
     let along = segment[1] - segment[0];
     let flat = FLAT * along.norm();
-    let at = |share: f64| {
-        let place = segment[0] + along * share;
-        (place, nearest(&place))
-    };
+    let at = |share: f64| nearest(&(segment[0] + along * share));
     let slope_of = |found: &Nearest| found.normal_b.dot(&along);
     let [first, last] = [at(0.0), at(1.0)];
-    let [falls, rises] = [slope_of(&first.1), slope_of(&last.1)];
-    if falls >= -flat || first.1.distance <= enough {
+    let [falls, rises] = [slope_of(&first), slope_of(&last)];
+    if falls >= -flat || first.distance <= 0.0 {
         return first;
     }
-    if rises <= flat || last.1.distance <= enough {
+    if rises <= flat || last.distance <= 0.0 {
         return last;
     }
     at(sign_change([falls, rises], |share| {
-        let found = at(share).1;
+        let found = at(share);
         let slope = slope_of(&found);
-        if slope.abs() <= flat || found.distance <= enough { 0.0 } else { slope }
+        if slope.abs() <= flat || found.distance <= 0.0 { 0.0 } else { slope }
     }))
 }
 
@@ -203,19 +166,14 @@ struct TranslationSearch<'a> {
 
 impl<'a> TranslationSearch<'a> {
     fn new(segment: &'a [Vec3; 2], frustum: &'a Frustum) -> Self {
-        let best = Approach {
-            distance: f64::NEG_INFINITY,
-            normal_b: frustum.axis,
-            place_b: segment[0],
-            feature: Feature::face(2),
-        };
+        let best = Approach { distance: f64::NEG_INFINITY, normal_b: frustum.axis };
         Self { segment, frustum, best }
     }
 
     fn shortest(mut self) -> Approach {
         let axis = self.frustum.axis;
-        self.offer(&-axis, Feature::face(1));
-        self.offer(&axis, Feature::face(2));
+        self.offer(&-axis);
+        self.offer(&axis);
         for end in self.segment {
             let arm = end - self.frustum.ends[0];
             let across = arm - axis * axis.dot(&arm);
@@ -230,19 +188,18 @@ impl<'a> TranslationSearch<'a> {
             } else {
                 any_perpendicular(&axis) * wall_aside
             };
-            self.offer(&(axis * wall_along + away).normalize(), Feature::face(0));
+            self.offer(&(axis * wall_along + away).normalize());
         }
         self.offer_across();
         self.best
     }
 
     /// Keeps the translation along a unit vector if it is shorter than the best one.
-    fn offer(&mut self, normal: &Vec3, feature: Feature) {
-        let [one, other] = self.segment;
-        let place = if normal.dot(&(other - one)) < 0.0 { other } else { one };
-        let distance = normal.dot(place) - self.frustum.support(normal);
+    fn offer(&mut self, normal: &Vec3) {
+        let [one, other] = self.segment.map(|end| normal.dot(&end));
+        let distance = one.min(other) - self.frustum.support(normal);
         if distance > self.best.distance {
-            self.best = Approach { distance, normal_b: *normal, place_b: *place, feature };
+            self.best = Approach { distance, normal_b: *normal };
         }
     }
 
@@ -255,12 +212,12 @@ impl<'a> TranslationSearch<'a> {
         for end in [0, 1] {
             for toward in [first, -first] {
                 if let Some(normal) = self.least_of_end(end, &along, &toward) {
-                    self.offer_at(&along, &normal);
+                    self.offer(&normal);
                 }
             }
         }
         for normal in self.lateral_normals(&along).into_iter().flatten() {
-            self.offer_at(&along, &normal);
+            self.offer(&normal);
         }
     }
 
@@ -349,78 +306,6 @@ impl<'a> TranslationSearch<'a> {
         }
         let sideways = along.cross(&toward) * aside.max(0.0).sqrt();
         Some([1.0, -1.0].map(|sign| unit(toward * share + sideways * sign)))
-    }
-
-    /// Returns the point of each end circle that is farthest along a unit vector.
-    fn farthest(&self, normal: &Vec3) -> [Vec3; 2] {
-        let across = normal - self.frustum.axis * self.frustum.axis.dot(normal);
-        let aside = across.norm();
-        let way = if aside > 0.0 { across / aside.max(f64::MIN_POSITIVE) } else { across };
-        [0, 1].map(|end| self.frustum.ends[end] + way * self.frustum.radii[end])
-    }
-
-    /// Returns the point of the segment that touches the frustum after the translation along `normal`, as its
-    /// distance from the segment's start, m.
-    ///
-    /// The point lies at the end circle that extends farther along `normal`. If both circles extend equally
-    /// far, it lies where the line of the lateral surface between them crosses the plane of the segment and
-    /// `normal`. For a segment along the lateral surface or an end face, it is the middle of the part that
-    /// overlaps the surface or face.
-    fn travelled(&self, along: &Vec3, normal: &Vec3, rounding: f64) -> f64 {
-        if let Some(middle) = self.middle_over_face(along, normal) {
-            return middle;
-        }
-        let places = self.farthest(normal);
-        let [height, other_height] = places.map(|place| normal.dot(&place));
-        let [at, other] = places.map(|place| along.dot(&(place - self.segment[0])));
-        let length = along.dot(&(self.segment[1] - self.segment[0]));
-        if (height - other_height).abs() > rounding {
-            return if height > other_height { at } else { other }.clamp(0.0, length);
-        }
-        let turning = along.cross(normal);
-        let [first, last] = places.map(|place| turning.dot(&(place - self.segment[0])));
-        if (first - last).abs() <= rounding {
-            return 0.5 * (at.clamp(0.0, length) + other.clamp(0.0, length));
-        }
-        let share = (first / divisor(first - last)).clamp(0.0, 1.0);
-        (at + (other - at) * share).clamp(0.0, length)
-    }
-
-    /// Returns the distance from the segment's start to the middle of its part over an end face, m. `None`
-    /// unless `normal` is perpendicular to that face, so that all points of the face extend equally far.
-    fn middle_over_face(&self, along: &Vec3, normal: &Vec3) -> Option<f64> {
-        let [one, other] = self.segment;
-        let end = usize::from(self.frustum.axis.dot(normal) > 0.0);
-        let (center_b, radius) = (self.frustum.ends[end], self.frustum.radii[end]);
-        let arm = one - center_b;
-        let face = Circle { center_b, axis_b: self.frustum.axis, radius };
-        let chord = face.chord(normal, along, &(arm - along * along.dot(&arm)))?;
-        let length = along.dot(&(other - one));
-        let [first, last] = chord.map(|place| along.dot(&(place - one)).clamp(0.0, length));
-        Some(0.5 * (first + last))
-    }
-
-    /// Considers the translation along `normal`, which is perpendicular to the segment, so that both ends of
-    /// the segment leave together. It replaces the best translation even if it is longer by a rounding error,
-    /// because the best one may name a single end as the point of contact.
-    fn offer_at(&mut self, along: &Vec3, normal: &Vec3) {
-        /// One minus the cosine of the largest angle (1.4e-7 rad) between directions that count as equal.
-        const SAME: f64 = 1e-14;
-        let [one, other] = self.segment;
-        let distance = normal.dot(one) - self.frustum.support(normal);
-        // Rounding error of the coordinates, and of the direction times the lengths.
-        let lengths = (other - one).norm() + self.frustum.length + self.frustum.radii[0];
-        let rounding =
-            4.0 * ROUNDING * (one.amax().max(other.amax()).max(self.frustum.ends[0].amax()) + lengths);
-        if distance > self.best.distance - rounding {
-            let place = one + along * self.travelled(along, normal, rounding);
-            // If the segment lies along the lateral surface, `normal` may equal the best direction up to
-            // rounding. The best direction is then kept, so that it does not change by rounding.
-            let is_known =
-                normal.dot(&self.best.normal_b) > 1.0 - SAME && distance <= self.best.distance + rounding;
-            let normal_b = if is_known { self.best.normal_b } else { *normal };
-            self.best = Approach { distance, normal_b, place_b: place, feature: Feature::face(0) };
-        }
     }
 }
 

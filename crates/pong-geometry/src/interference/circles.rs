@@ -99,11 +99,16 @@ impl Across {
         self.first_b * x + second * y
     }
 
+    /// Returns the sixteen directions that the search samples.
+    pub fn directions(&self) -> [Vec3; COUNT] {
+        std::array::from_fn(|index| self.direction(index))
+    }
+
     /// Returns the directions of the two greatest local maxima of the depth, the deepest first. Each is
     /// refined from a local maximum of sixteen samples; the shapes tested here have no more than two. If
     /// there is no maximum, all directions are equivalent, so the result is the first direction alone.
     pub fn greatest(&self, reach: impl Fn(&Vec3) -> Reach) -> [Option<Vec3>; 2] {
-        let directions: [Vec3; COUNT] = std::array::from_fn(|index| self.direction(index));
+        let directions = self.directions();
         let depths = directions.map(|direction| reach(&direction).depth);
         let mut best: [Option<(f64, Vec3)>; 2] = [None; 2];
         for index in 0..COUNT {

@@ -18,10 +18,11 @@ pub fn ellipsoid_ellipsoid(a: &Ellipsoid, b: &Ellipsoid) -> Option<Interference>
         let (reach, radii) = of_b.part(n);
         Along::new(n, &of_a, (reach + b.center, radii))
     };
-    let mut normal = descend(&first_direction([&of_a, &of_b], &between), along);
+    let mut normal = descend(&first_direction([&of_a, &of_b], &between), &[], along);
     if overlap(&normal) >= of_a.least_radius() + of_b.least_radius() {
         let directions = of_a.directions().chain(of_b.directions()).chain([normal]);
-        normal = least_of_many(directions, SAME, overlap, |start| descend(start, along)).unwrap_or(normal);
+        let to_minimum = |start: &Vec3, known: &[Vec3]| descend(start, known, along);
+        normal = least_of_many(directions, SAME, overlap, to_minimum).unwrap_or(normal);
     }
     let depth = overlap(&normal);
     (depth > 0.0).then(|| Interference {

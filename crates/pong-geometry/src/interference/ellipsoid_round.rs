@@ -79,7 +79,8 @@ pub fn ellipsoid_frustum(ellipsoid: &Ellipsoid, frustum: &Frustum) -> Option<Int
     }
     if !search.is_least(&best) {
         let directions = search.e.directions().chain(lattice(search.frame()));
-        let found = least_of_many(directions, SAME, |n| search.overlap(n), |start| search.to_minimum(start));
+        let to_minimum = |start: &Vec3, known: &[Vec3]| search.to_minimum(start, known);
+        let found = least_of_many(directions, SAME, |n| search.overlap(n), to_minimum);
         found.into_iter().for_each(|normal| search.offer(normal, search.rim(&normal), &mut best));
     }
     let Candidate { depth, normal, feature } = best;
@@ -119,14 +120,15 @@ impl Search<'_> {
 
     /// Tries the minimum to which `start` descends on the rim that touches there.
     fn offer_rim(&self, start: &Vec3, best: &mut Candidate) {
-        let normal = self.to_minimum(start);
+        let normal = self.to_minimum(start, &[]);
         self.offer(normal, self.rim(&normal), best);
     }
 
-    /// Returns the minimum of the translation out of one disc, the one farther along `start`.
-    fn to_minimum(&self, start: &Vec3) -> Vec3 {
+    /// Returns the minimum of the translation out of one disc, the one farther along `start`, or a normal beside one of
+    /// the minima that are known.
+    fn to_minimum(&self, start: &Vec3, known: &[Vec3]) -> Vec3 {
         let end = self.rim(start).index();
-        descend(start, |n| Along::new(n, &self.e, self.of_disc(end, n)))
+        descend(start, known, |n| Along::new(n, &self.e, self.of_disc(end, n)))
     }
 
     /// Returns the rim that is farther along a normal.

@@ -75,13 +75,10 @@ pub(super) fn lattice(frame: [Vec3; 3]) -> impl Iterator<Item = Vec3> {
     })
 }
 
-/// Returns a normal at which D is a local minimum, by descent from `start`. The descent ends early where the bodies
-/// are apart. `along` evaluates D near a normal.
-pub(super) fn descend(start: &Vec3, along: impl Fn(&Vec3) -> Along) -> Vec3 {
-    const STEPS: usize = 60;
-    /// Longest step, rad.
-    const FARTHEST: f64 = 0.5;
-    newton(start, STEPS, FARTHEST, |normal| {
+/// Returns a normal at which D is a local minimum, by descent from `start`, or one beside a minimum of `known`. The descent
+/// ends early where the bodies are apart. `along` evaluates D near a normal.
+pub(super) fn descend(start: &Vec3, known: &[Vec3], along: impl Fn(&Vec3) -> Along) -> Vec3 {
+    newton(start, Limits { steps: 60, farthest: 0.5, enough: 0.0, known }, |normal| {
         let Along { overlap, farthest_b, radii } = along(normal);
         let size = farthest_b.norm() + radii.amax();
         Local { value: overlap, slope_b: farthest_b - normal * overlap, bend: radii, less: overlap, size }
@@ -101,16 +98,32 @@ pub(super) struct Local {
     pub size: f64,
 }
 
-/// Returns a unit vector at which a function is a local minimum, or at which it is not positive, or the one after
-/// `steps` of Newton's steps. Steps longer than `farthest`, rad, are shortened.
-pub(super) fn newton(start: &Vec3, steps: usize, farthest: f64, at: impl Fn(&Vec3) -> Local) -> Vec3 {
+/// Where a search by Newton's method ends.
+pub(super) struct Limits<'a> {
+    /// Most steps.
+    pub steps: usize,
+    /// Longest step, rad; longer ones are shortened.
+    pub farthest: f64,
+    /// A step that would lower the value by less than about this part of it is not taken.
+    pub enough: f64,
+    /// Minima that are known. A search that comes near one of them ends there.
+    pub known: &'a [Vec3],
+}
+
+/// Returns a unit vector at which a function is a local minimum, or at which it is not positive, or where the limits end
+/// the search.
+pub(super) fn newton(start: &Vec3, limits: Limits<'_>, at: impl Fn(&Vec3) -> Local) -> Vec3 {
+    /// Cosine above which a search has come to a known minimum: 0.026°.
+    const JOINED: f64 = 1.0 - 1e-7;
+    let Limits { steps, farthest, enough, known } = limits;
     /// Rounding of the value, relative to the size of its terms.
     const ROUNDING: f64 = 8.0 * f64::EPSILON;
     let (mut normal, mut damping) = (*start, 0.0);
     let mut here = at(&normal);
     for _ in 0..steps {
         let Local { value, slope_b, bend, less, size } = here;
-        if value <= 0.0 || slope_b.norm() <= f64::EPSILON * size {
+        let joins = known.iter().any(|minimum| minimum.dot(&normal) > JOINED);
+        if value <= 0.0 || joins || slope_b.norm() <= f64::EPSILON * size {
             break;
         }
         let u = any_perpendicular(&normal);
@@ -126,6 +139,9 @@ pub(super) fn newton(start: &Vec3, steps: usize, farthest: f64, at: impl Fn(&Vec
         let determinant = (uu * vv - uv * uv).max(f64::MIN_POSITIVE);
         let step = u * ((uv * along_v - vv * along_u) / determinant)
             + v * ((uv * along_u - uu * along_v) / determinant);
+        if -step.dot(&slope_b) < enough * value {
+            break;
+        }
         let length = step.norm();
         let step = if length > farthest { step * (farthest / length) } else { step };
         let next = (normal + step).normalize();
@@ -149,12 +165,13 @@ pub(super) fn newton(start: &Vec3, steps: usize, farthest: f64, at: impl Fn(&Vec
 pub(super) const SAME: f64 = 0.9;
 
 /// Returns the best of the normals to which the most promising of `directions` descend. `overlap` is D,
-/// `to_minimum` the descent. Of directions whose cosine is above `same`, the better one counts.
+/// `to_minimum` the descent; it is told the minima that others came to. Of directions whose cosine is above `same`, the
+/// better one counts.
 pub(super) fn least_of_many(
     directions: impl Iterator<Item = Vec3>,
     same: f64,
     overlap: impl Fn(&Vec3) -> f64,
-    to_minimum: impl Fn(&Vec3) -> Vec3,
+    to_minimum: impl Fn(&Vec3, &[Vec3]) -> Vec3,
 ) -> Option<Vec3> {
     /// Number of descents.
     const DESCENTS: usize = 8;
@@ -170,9 +187,15 @@ pub(super) fn least_of_many(
         starts[place..=near].rotate_right(1);
         starts[place] = (value, direction);
     }
-    let found = starts.iter().filter(|(value, _)| value.is_finite()).map(|(_, start)| to_minimum(start));
-    found
-        .map(|normal| (overlap(&normal), normal))
-        .reduce(|a, b| if b.0 < a.0 { b } else { a })
-        .map(|best| best.1)
+    let mut known = [Vec3::zeros(); DESCENTS];
+    let mut best: Option<(f64, Vec3)> = None;
+    for (index, (_, start)) in starts.iter().filter(|(value, _)| value.is_finite()).enumerate() {
+        let normal = to_minimum(start, &known[..index]);
+        known[index] = normal;
+        let value = overlap(&normal);
+        if best.is_none_or(|(least, _)| value < least) {
+            best = Some((value, normal));
+        }
+    }
+    best.map(|(_, normal)| normal)
 }

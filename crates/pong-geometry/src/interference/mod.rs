@@ -5,6 +5,7 @@
 //! function of the caller (`emit`) for each contact.
 
 mod axis_approach;
+pub mod axis_triangle;
 pub mod ball_bore;
 pub mod ball_round;
 pub mod bar_polyhedron;
@@ -27,6 +28,7 @@ mod least_translation;
 pub mod line_segment_plane;
 pub mod line_segment_polyhedron;
 pub mod nearest_on_triangle;
+mod planes_at_round;
 pub mod point_ellipsoid;
 pub mod point_plane;
 pub mod point_polyhedron;

@@ -27,7 +27,8 @@ pub(crate) fn of_capsule(place: &Vec3, capsule: &Capsule) -> Nearest {
     let arm = place - foot;
     let distance = arm.norm();
     let normal = if distance > ROUNDING * place.amax().max(foot.amax()) {
-        (arm / distance).normalize()
+        // Clamped, so that the divisor is not zero even if a compiler divides before the branch.
+        arm / distance.max(f64::MIN_POSITIVE)
     } else {
         any_perpendicular(&(capsule.ends[1] - capsule.ends[0]).normalize())
     };
@@ -64,7 +65,11 @@ impl Meridian {
 
     fn of_parts(place: &Vec3, frustum: &Frustum, &(along, across, aside): &(f64, Vec3, f64)) -> Self {
         let is_beside = aside > ROUNDING * place.amax().max(frustum.ends[0].amax());
-        let away_b = if is_beside { (across / aside).normalize() } else { any_perpendicular(&frustum.axis) };
+        // Clamped, so that the divisor is not zero even if a compiler divides before the branch.
+        let away_b = match is_beside {
+            true => across / aside.max(f64::MIN_POSITIVE),
+            false => any_perpendicular(&frustum.axis),
+        };
         Self { along, aside, away_b }
     }
 }
@@ -108,7 +113,12 @@ pub(crate) fn of_frustum_within(place: &Vec3, frustum: &Frustum, reach: f64) -> 
         return None;
     }
     let at = Meridian::of_parts(place, frustum, &parts);
-    let in_space = |along: f64, aside: f64| frustum.axis * along + at.away_b * aside;
+    let in_space = |(along, aside): (f64, f64), size: f64| match (along == 0.0, aside == 0.0) {
+        (true, _) => at.away_b * (aside / size),
+        (_, true) => frustum.axis * (along / size),
+        // Near the axis the two directions are perpendicular only to rounding.
+        _ => (frustum.axis * along + at.away_b * aside).normalize(),
+    };
     let normals = [(wall_along, wall_aside), (-1.0, 0.0), (1.0, 0.0)];
     if heights.iter().all(|&height| height <= 0.0) {
         let mut least = 0;
@@ -117,9 +127,8 @@ pub(crate) fn of_frustum_within(place: &Vec3, frustum: &Frustum, reach: f64) -> 
                 least = side;
             }
         }
-        let (along, aside) = normals[least];
-        let normal = in_space(along, aside).normalize();
-        return Some(Nearest { distance: heights[least], normal_b: normal, feature: Feature::face(least) });
+        let normal_b = in_space(normals[least], 1.0);
+        return Some(Nearest { distance: heights[least], normal_b, feature: Feature::face(least) });
     }
     let feet = [on_wall(&at, frustum), (0.0, at.aside.min(first)), (frustum.length, at.aside.min(last))];
     let square = |side: usize| {
@@ -132,13 +141,14 @@ pub(crate) fn of_frustum_within(place: &Vec3, frustum: &Frustum, reach: f64) -> 
     let (along, aside) = (at.along - feet[nearest].0, at.aside - feet[nearest].1);
     let distance = square(nearest).sqrt();
     let scale = at.along.abs().max(at.aside).max(frustum.length);
-    let (along, aside) = if distance > ROUNDING * scale { (along, aside) } else { normals[nearest] };
+    let (away, size) =
+        if distance > ROUNDING * scale { ((along, aside), distance) } else { (normals[nearest], 1.0) };
     let feature = match feet[nearest] {
         (0.0, aside) if aside == first => Feature::edge(0),
         (along, aside) if along == frustum.length && aside == last => Feature::edge(1),
         _ => Feature::face(nearest),
     };
-    Some(Nearest { distance, normal_b: in_space(along, aside).normalize(), feature })
+    Some(Nearest { distance, normal_b: in_space(away, size), feature })
 }
 
 /// Returns the point of the lateral surface nearest to `at`, in the coordinates of [`Meridian`]: distance

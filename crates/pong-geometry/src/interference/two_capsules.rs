@@ -6,12 +6,20 @@
 
 use super::axis_approach::nearest_of_segments;
 use super::round_surface::nearest_on_segment;
-use super::two_ended_round::EndContact;
 use super::{Feature, Interference};
 use crate::primitive::{Capsule, LineSegment};
 use crate::{Vec3, any_perpendicular, divisor};
 
-/// Contacts of a segment or a capsule with a capsule: at the two ends of their overlap on A's axis, which
+/// Contact of a body with two ends.
+#[derive(Clone, Copy, Debug)]
+pub struct EndContact {
+    /// Point, normal and depth.
+    pub interference: Interference,
+    /// Part of half a spring that acts in this contact, 0…2, no unit.
+    pub share: f64,
+}
+
+/// Contacts of a segment or a capsule with a round solid: at the two ends of their overlap on A's axis, which
 /// carry the load by the lever rule.
 pub type OverlapContacts = [Option<EndContact>; 2];
 
@@ -315,7 +323,7 @@ pub(super) fn zero_of_rising<T>(start: f64, mut visit: impl FnMut(f64) -> (f64, 
 }
 
 /// Returns the interval in which square·x² + 2·half·x + rest is not positive, if any.
-fn non_positive(square: f64, half: f64, rest: f64) -> Option<[f64; 2]> {
+pub(super) fn non_positive(square: f64, half: f64, rest: f64) -> Option<[f64; 2]> {
     let root = half * half - square * rest;
     (root >= 0.0).then(|| {
         let sum = -half - root.max(0.0).sqrt().copysign(half);

@@ -12,7 +12,7 @@
 //! well. For one normal the best offset is a root of a rising piecewise linear function. The normal is found by
 //! Newton's method on the unit sphere.
 
-use super::least_translation::{Local, SAME, lattice, least_of_many, newton};
+use super::least_translation::{Limits, Local, SAME, lattice, least_of_many, newton};
 use super::round_surface::of_frustum;
 use super::two_ended_round::EndContact;
 use super::{Feature, Interference};
@@ -33,15 +33,15 @@ pub fn two_frusta(a: &Frustum, b: &Frustum) -> PlateContacts {
     if at.energy <= 0.0 {
         return [None; 4];
     }
-    if !at.meet([a, b], &center) && Solid::frustum(a).to_within(&Solid::frustum(b), 0.0).is_none() {
+    if !between.meet(&at, [a, b], &center) && Solid::frustum(a).to_within(&Solid::frustum(b), 0.0).is_none() {
         // A plane separates the two, and the search has missed it.
         return [None; 4];
     }
     // U = ½k·Σ(force/k)·depth.
-    let force: f64 = at.places[0].iter().map(|place| place.pressed).sum();
+    let force: f64 = at.pressed[0].iter().sum();
     let depth = at.energy / force.max(f64::MIN_POSITIVE);
     [0, 1, 2, 3].map(|index| {
-        let Place { pressed, place, .. } = at.places[0][index];
+        let (place, pressed) = (between.bodies[0].place(&at.facing[0], index), at.pressed[0][index]);
         let interference =
             Interference { depth, normal_b: normal, deepest_b: place + center, feature: Feature::WHOLE };
         (pressed > 0.0).then_some(EndContact { interference, share: 2.0 * pressed / depth })
@@ -57,23 +57,24 @@ struct Side {
     sign: f64,
 }
 
-/// Place of a body at which it may touch the plate.
-#[derive(Clone, Copy, Debug)]
-struct Place {
-    place: Vec3,
-    /// Depth beyond the plate, m; 0 if it does not touch.
-    pressed: f64,
-    /// Second derivative of the height along the normal, in the direction `around` of the disc, m.
-    bend: f64,
+/// How a body lies on a plate along one normal.
+#[derive(Clone, Copy)]
+struct Facing {
+    /// Unit vector across the axis, level with the plate.
+    around: Vec3,
+    /// Unit vector across the axis, towards the normal.
+    up: Vec3,
+    /// Sine of the angle between axis and normal; at least that of rounding.
+    sine: f64,
 }
 
 /// Plate of the least energy along one normal.
 struct Along {
     /// Twice the energy over the stiffness, m².
     energy: f64,
-    places: [[Place; 4]; 2],
-    /// Direction in which each disc's lowest place turns, per body.
-    around: [Vec3; 2],
+    /// Depths of the places beyond the plate, per body, m; 0 for those that do not touch.
+    pressed: [[f64; 4]; 2],
+    facing: [Facing; 2],
 }
 
 struct Plate {
@@ -86,29 +87,37 @@ impl Side {
         Self { ends, radii: frustum.radii, axis: frustum.axis, sign }
     }
 
-    /// Returns the four places, and the direction around the axis; `pressed` is not set.
-    fn places(&self, n: &Vec3) -> ([Place; 4], Vec3) {
+    #[inline]
+    fn facing(&self, n: &Vec3) -> Facing {
         /// Sine of an angle between two unit vectors that can come from rounding alone.
         const UPRIGHT: f64 = 16.0 * f64::EPSILON;
         let level = n.cross(&self.axis);
         let sine = level.norm();
         let around =
             if sine > UPRIGHT { level / sine.max(f64::MIN_POSITIVE) } else { any_perpendicular(&self.axis) };
-        // Across the axis towards n.
-        let up = self.axis.cross(&around).normalize();
-        let at = |index: usize| {
-            let (end, lowest) = (index % 2, index < 2);
-            let sign = if lowest { self.sign } else { -self.sign };
-            let radius = self.radii[end];
-            let bend = sign * radius / sine.max(UPRIGHT);
-            Place { place: self.ends[end] + up * (sign * radius), pressed: 0.0, bend }
-        };
-        ([0, 1, 2, 3].map(at), around)
+        Facing { around, up: self.axis.cross(&around).normalize(), sine: sine.max(UPRIGHT) }
     }
 
-    /// True for a place that the body has: an apex is one place, not two.
-    fn has(&self, index: usize) -> bool {
-        index < 2 || self.radii[index % 2] > 0.0
+    /// Arm of a place from the middle of its disc, as a multiple of the vector towards the normal, m. Places 0 and 1 are
+    /// those of the two discs nearest to the plate, 2 and 3 those farthest from it.
+    #[inline]
+    fn arm(&self, index: usize) -> f64 {
+        let arm = self.sign * self.radii[index % 2];
+        if index < 2 { arm } else { -arm }
+    }
+
+    #[inline]
+    fn place(&self, facing: &Facing, index: usize) -> Vec3 {
+        self.ends[index % 2] + facing.up * self.arm(index)
+    }
+
+    /// Heights of the four places along the normal, or `absent` for what the body has not: an apex is one place, not two.
+    #[inline]
+    fn heights(&self, n: &Vec3, facing: &Facing, absent: f64) -> [f64; 4] {
+        let (ends, up) = (self.ends.map(|end| n.dot(&end)), n.dot(&facing.up));
+        let far =
+            |end: usize| if self.radii[end] > 0.0 { ends[end] + up * self.arm(end + 2) } else { absent };
+        [ends[0] + up * self.arm(0), ends[1] + up * self.arm(1), far(0), far(1)]
     }
 }
 
@@ -117,39 +126,34 @@ impl Plate {
     fn along(&self, n: &Vec3) -> Along {
         /// A step ends where no other place begins or ends to touch, which happens eight times at most.
         const STEPS: usize = 12;
-        let [(mut of_a, around_a), (mut of_b, around_b)] = self.bodies.each_ref().map(|side| side.places(n));
-        let heights = [&of_a, &of_b].map(|places| places.map(|place| n.dot(&place.place)));
-        let has = |body: usize, index: usize| self.bodies[body].has(index);
-        let lowest = (0..4).filter(|&i| has(0, i)).map(|i| heights[0][i]).fold(f64::INFINITY, f64::min);
-        let highest = (0..4).filter(|&i| has(1, i)).map(|i| heights[1][i]).fold(f64::NEG_INFINITY, f64::max);
+        let [a, b] = &self.bodies;
+        let facing = [a.facing(n), b.facing(n)];
+        // A's places touch the plate if they are below its offset, B's if they are above.
+        let low = a.heights(n, &facing[0], f64::INFINITY);
+        let high = b.heights(n, &facing[1], f64::NEG_INFINITY);
+        let lowest = low.into_iter().fold(f64::INFINITY, f64::min);
+        let highest = high.into_iter().fold(f64::NEG_INFINITY, f64::max);
         let mut offset = 0.5 * (lowest + highest);
         if lowest < highest {
             for _ in 0..STEPS {
-                let (mut sum, mut count) = (0.0, 0.0);
-                for (index, (low, high)) in heights[0].iter().zip(&heights[1]).enumerate() {
-                    for (body, height, over) in [(0, low, offset - low), (1, high, high - offset)] {
-                        if has(body, index) && over > 0.0 {
-                            sum += height;
-                            count += 1.0;
-                        }
-                    }
+                let (mut sums, mut counts) = ([0.0; 4], [0.0; 4]);
+                for index in 0..4 {
+                    let (of_a, of_b) = (offset > low[index], high[index] > offset);
+                    let height = |touches: bool, height: f64| if touches { height } else { 0.0 };
+                    sums[index] = height(of_a, low[index]) + height(of_b, high[index]);
+                    counts[index] = f64::from(u8::from(of_a) + u8::from(of_b));
                 }
-                let next = sum / f64::max(count, 1.0);
+                let total = |of: [f64; 4]| (of[0] + of[1]) + (of[2] + of[3]);
+                let next = total(sums) / f64::max(total(counts), 1.0);
                 if next == offset {
                     break;
                 }
                 offset = next;
             }
         }
-        let mut energy = 0.0;
-        for index in 0..4 {
-            let over = [offset - heights[0][index], heights[1][index] - offset];
-            for (body, place) in [(0, &mut of_a[index]), (1, &mut of_b[index])] {
-                place.pressed = if has(body, index) { over[body].max(0.0) } else { 0.0 };
-                energy += place.pressed * place.pressed;
-            }
-        }
-        Along { energy, places: [of_a, of_b], around: [around_a, around_b] }
+        let pressed = [low.map(|low| (offset - low).max(0.0)), high.map(|high| (high - offset).max(0.0))];
+        let energy = pressed.iter().flatten().map(|pressed| pressed * pressed).sum();
+        Along { energy, pressed, facing }
     }
 
     /// Returns the normal at which the plate stores least; `None` if a plate separates the bodies.
@@ -158,9 +162,9 @@ impl Plate {
         const SHALLOW: f64 = 0.1;
         /// Cosine above which two of the likely normals lead to one minimum: two minima may be 4° apart.
         const NEAR: f64 = 0.9995;
-        /// Steps of a descent.
-        const FEW: usize = 24;
-        const MANY: usize = 80;
+        /// Steps of a descent, and the part of the energy that a step must save.
+        const FEW: (usize, f64) = (32, 1e-8);
+        const MANY: (usize, f64) = (80, 0.0);
         let first =
             [0.5, 0.0, 1.0].map(|at| of_frustum(&(a.ends[0] + (a.ends[1] - a.ends[0]) * at), b).normal_b);
         let back =
@@ -176,8 +180,8 @@ impl Plate {
         }
         let energy = |n: &Vec3| self.along(n).energy;
         // Which minimum is the least shows after a few steps; only that one is followed to its bottom.
-        let descend = |n: &Vec3| self.descend(n, FEW);
-        let best = self.descend(&least_of_many(starts.into_iter(), NEAR, energy, descend)?, MANY);
+        let descend = |n: &Vec3, known: &[Vec3]| self.descend(n, FEW, known);
+        let best = self.descend(&least_of_many(starts.into_iter(), NEAR, energy, descend)?, MANY, &[]);
         let size = [a, b].map(|body| body.radii[0].max(body.radii[1]).min(body.length));
         let depth = self.along(&best).energy.sqrt();
         if depth < SHALLOW * size[0].min(size[1]) {
@@ -188,49 +192,54 @@ impl Plate {
             [*axis, other, axis.cross(&other)]
         };
         let all = lattice(frame(&a.axis)).chain(lattice(frame(&b.axis))).chain([best]);
-        Some(self.descend(&least_of_many(all, SAME, energy, descend)?, MANY))
+        Some(self.descend(&least_of_many(all, SAME, energy, descend)?, MANY, &[]))
     }
 
-    /// Returns a normal at which the energy is a local minimum, or at which it is zero, or the one after `steps` steps.
-    fn descend(&self, start: &Vec3, steps: usize) -> Vec3 {
+    /// Returns a normal at which the energy is a local minimum, or at which it is zero, or the one after `steps` steps, or
+    /// where a step would save less than about the part `enough`, or one beside a minimum of `known`.
+    fn descend(&self, start: &Vec3, (steps, enough): (usize, f64), known: &[Vec3]) -> Vec3 {
         /// Longest step, rad.
         const FARTHEST: f64 = 0.3;
-        newton(start, steps, FARTHEST, |n| {
+        let ends = self.bodies.iter().flat_map(|body| body.ends.iter().zip(body.radii));
+        let reach = ends.map(|(end, radius)| end.amax() + radius).fold(0.0, f64::max);
+        newton(start, Limits { steps, farthest: FARTHEST, enough, known }, |n| {
             let here = self.along(n);
-            let reach = here.places.iter().flatten().map(|place| place.place.amax()).fold(0.0, f64::max);
-            let (slope_b, bend) = here.derivatives(n);
+            let (slope_b, bend) = self.derivatives(&here, n);
             Local { value: here.energy, slope_b, bend, less: 0.0, size: here.energy.sqrt() * reach }
         })
     }
-}
 
-impl Along {
     /// Returns `true` if the middle of the load on one body surely lies in the other. `center` is the origin of the search.
-    fn meet(&self, [a, b]: [&Frustum; 2], center: &Vec3) -> bool {
+    fn meet(&self, at: &Along, [a, b]: [&Frustum; 2], center: &Vec3) -> bool {
         /// Depth, relative to the length of a body, that does not come from rounding.
         const SURELY: f64 = 1e-12;
-        let lies_in = |places: &[Place; 4], other: &Frustum| {
-            let load: f64 = places.iter().map(|place| place.pressed).sum();
-            let moment = places.iter().map(|place| place.place * place.pressed).sum::<Vec3>();
+        let lies_in = |body: usize, other: &Frustum| {
+            let load: f64 = at.pressed[body].iter().sum();
+            let place = |index: usize| self.bodies[body].place(&at.facing[body], index);
+            let moment = (0..4).map(|index| place(index) * at.pressed[body][index]).sum::<Vec3>();
             let middle = moment / load.max(f64::MIN_POSITIVE) + center;
             load > 0.0 && of_frustum(&middle, other).distance < -SURELY * other.length
         };
-        lies_in(&self.places[0], b) || lies_in(&self.places[1], a)
+        lies_in(0, b) || lies_in(1, a)
     }
 
-    /// Returns the derivative of half the `energy` when the normal turns, in the tangent plane, and the second derivative.
-    fn derivatives(&self, n: &Vec3) -> (Vec3, Mat3) {
+    /// Returns the derivative of half the energy when the normal turns, in the tangent plane, and the second derivative.
+    fn derivatives(&self, at: &Along, n: &Vec3) -> (Vec3, Mat3) {
         let (mut slope, mut bend, mut mixed, mut count) = (Vec3::zeros(), Mat3::zeros(), Vec3::zeros(), 0.0);
         for (body, sign) in [(0, -1.0), (1, 1.0)] {
-            let around = self.around[body] * self.around[body].transpose();
-            for Place { place, pressed, bend: radius } in &self.places[body] {
-                if *pressed > 0.0 {
-                    slope += place * (sign * pressed);
-                    bend += place * place.transpose() + around * (sign * pressed * radius);
-                    mixed -= place;
-                    count += 1.0;
-                }
+            let Facing { around, sine, .. } = &at.facing[body];
+            let mut turning = 0.0;
+            for index in (0..4).filter(|&index| at.pressed[body][index] > 0.0) {
+                let (side, pressed) = (&self.bodies[body], at.pressed[body][index]);
+                let place = side.place(&at.facing[body], index);
+                slope += place * (sign * pressed);
+                bend += place * place.transpose();
+                // The height of a rim's lowest place bends by the radius over the sine.
+                turning += sign * pressed * side.arm(index) / sine;
+                mixed -= place;
+                count += 1.0;
             }
+            bend += around * around.transpose() * turning;
         }
         let along = n.dot(&slope);
         // The best offset follows the normal.

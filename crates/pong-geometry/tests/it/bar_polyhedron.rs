@@ -1,8 +1,9 @@
 //! Capsules and segments on convex solids: the energy against its definition by planes, the wrench against the
 //! energy, closed forms, and invariances.
 
+use crate::common::paths::gained;
 use crate::common::{cuboid, fibonacci_sphere, random_motion, stretched_hull};
-use crate::two_capsules::{capsule, gained_along, moved};
+use crate::two_capsules::{capsule, moved};
 use pong_geometry::bounding::Bounded;
 use pong_geometry::interference::bar_polyhedron::{capsule_solid, segment_solid};
 use pong_geometry::interference::two_capsules::OverlapContacts;
@@ -184,8 +185,13 @@ fn paths_gain_and_lose_nothing() {
         let b = &solids[case as usize % solids.len()];
         let a = random_bar(&mut random, b);
         let (shift, turn) = (random.vector(0.3), random.vector(0.6));
-        let gained = gained_along(&a, &shift, &turn, &|a| energy(a, b), &|a| wrench(a, b));
-        let Some(gained) = gained else { continue };
+        let place = |s: f64| moved(&a, &(shift * s), &(turn * s));
+        let power = |s: f64| {
+            let Wrench { force, moment } = wrench(&place(s), b);
+            // The screw turns about the origin of A's frame, which is at shift·s.
+            force.dot(&shift) + (moment - (shift * s).cross(&force)).dot(&turn)
+        };
+        let Some(gained) = gained(|s| energy(&place(s), b), power, 1e-4) else { continue };
         assert!(gained < 1e-9, "case {case}: {gained:e} of the largest stored {a:?}");
         worst = worst.max(gained);
         touching += 1;

@@ -1,6 +1,7 @@
 //! Two capsules, and a segment and a capsule: the energy against its definition by planes, the wrench against
 //! the energy, closed forms, and invariances.
 
+use crate::common::paths::gained;
 use crate::common::{fibonacci_sphere, random_motion};
 use pong_geometry::interference::two_capsules::{OverlapContacts, capsule_capsule, segment_capsule};
 use pong_geometry::primitive::{Capsule, LineSegment};
@@ -157,54 +158,6 @@ fn the_wrench_is_minus_the_derivative_of_the_energy() {
     assert!(compared > long_samples(1000, 10_000), "{compared}");
 }
 
-/// Work of the wrench along a straight screw from `from` to `to` of the way, by Simpson's rule, halved until two
-/// halves agree with the whole.
-fn work(at: &impl Fn(f64) -> f64, [from, to]: [f64; 2], power: [f64; 3], depth: u32, limit: f64) -> f64 {
-    let middle = 0.5 * (from + to);
-    let rule = |length: f64, p: [f64; 3]| length * (p[0] + 4.0 * p[1] + p[2]) / 6.0;
-    let halves =
-        [[power[0], at(0.5 * (from + middle)), power[1]], [power[1], at(0.5 * (middle + to)), power[2]]];
-    let [one, other] = halves.map(|p| rule(middle - from, p));
-    let off = one + other - rule(to - from, power);
-    if depth == 0 || off.abs() <= 15.0 * limit * (to - from) {
-        return one + other + off / 15.0;
-    }
-    work(at, [from, middle], halves[0], depth - 1, limit)
-        + work(at, [middle, to], halves[1], depth - 1, limit)
-}
-
-/// Energy that appears or vanishes along a screw, over the largest stored; `None` if hardly anything is stored.
-pub fn gained_along(
-    a: &Capsule,
-    shift: &Vec3,
-    turn: &Vec3,
-    energy: &dyn Fn(&Capsule) -> f64,
-    wrench: &dyn Fn(&Capsule) -> Wrench,
-) -> Option<f64> {
-    let place = |s: f64| moved(a, &(shift * s), &(turn * s));
-    let power = |s: f64| {
-        let Wrench { force, moment } = wrench(&place(s));
-        // The screw turns about the origin of A's frame, which is at shift·s.
-        force.dot(shift) + (moment - (shift * s).cross(&force)).dot(turn)
-    };
-    let samples = [0.0, 0.25, 0.5, 0.75, 1.0].map(|s| energy(&place(s)));
-    let largest = samples.into_iter().fold(0.0, f64::max);
-    if largest < 1e-4 {
-        return None;
-    }
-    let energies = samples[4] - samples[0];
-    let gained_in = |parts: i32, limit: f64| {
-        let of_part = |k: i32| {
-            let [from, to] = [k, k + 1].map(|k| f64::from(k) / f64::from(parts));
-            let at_three = [from, 0.5 * (from + to), to].map(power);
-            work(&power, [from, to], at_three, 36, limit * largest)
-        };
-        ((0..parts).map(of_part).sum::<f64>() + energies).abs() / largest
-    };
-    // Halves may agree by chance beside a kink: where that shows, smaller ones tell.
-    Some(gained_in(16, 3e-10)).filter(|gained| *gained < 1e-9).or_else(|| Some(gained_in(256, 1e-11)))
-}
-
 /// Along random paths, deep ones and through square axes included, the work of the wrench is the energy that is
 /// stored less: none appears or vanishes.
 #[test]
@@ -214,8 +167,13 @@ fn paths_gain_and_lose_nothing() {
     for case in 0..long_samples(600, 100_000) {
         let (a, b) = random_pair(&mut random, 0.1);
         let (shift, turn) = (random.vector(0.3), random.vector(0.6));
-        let gained = gained_along(&a, &shift, &turn, &|a| energy(a, &b), &|a| wrench(a, &b));
-        let Some(gained) = gained else { continue };
+        let place = |s: f64| moved(&a, &(shift * s), &(turn * s));
+        let power = |s: f64| {
+            let Wrench { force, moment } = wrench(&place(s), &b);
+            // The screw turns about the origin of A's frame, which is at shift·s.
+            force.dot(&shift) + (moment - (shift * s).cross(&force)).dot(&turn)
+        };
+        let Some(gained) = gained(|s| energy(&place(s), &b), power, 1e-4) else { continue };
         assert!(gained < 1e-9, "case {case}: {gained:e} of the largest stored {a:?} {b:?}");
         worst = worst.max(gained);
         touching += 1;

@@ -49,8 +49,9 @@ fn every_family(claim: &str) {
         print!("{found}");
         assert!(tally.differ <= scenes() * KINKS_MOST / 1000, "{}\n{found}", survey.text());
         // Solids have no potential, and their tangents are compared where closed forms take part. Cylinders and cones
-        // have closed forms on faces alone.
-        let least = if family.starts_with("wheel") { scenes() / 10 } else { scenes() / 4 };
+        // have closed forms on faces alone, capsules on meshes at their ends alone.
+        let few = family.starts_with("wheel") || family == "rod_on_mesh";
+        let least = if few { scenes() / 10 } else { scenes() / 4 };
         let is_met = tally.compared > least || (claim == "potential" && tally.compared == 0);
         assert!(is_met, "{family}: only {} compared", tally.compared);
     }

@@ -1,6 +1,6 @@
 //! Load sharing between the end spheres of a capsule and the edges that its axis crosses, on a polyhedron or
 //! triangles. Of the convex edges that the axis crosses, only the deepest pushes: it takes the load that the
-//! end spheres do not (docs/theory.md, 2.8).
+//! end spheres do not (docs/theory.md, 2.8). On triangles this is the rule only where `axes.rs` has none.
 
 use crate::frame::narrow_phase::candidate::{CandidateStatus, ContactCandidate};
 use pong_geometry::Vec3;

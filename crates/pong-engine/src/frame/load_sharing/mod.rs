@@ -1,5 +1,6 @@
 //! Load sharing: decides which candidates of a chunk of A count, and with which weight.
 
+mod axes;
 mod capsules;
 mod exits;
 mod joint;
@@ -112,7 +113,7 @@ pub(crate) fn assign_weights(
 /// of one end ball or disc with one surface share half a spring. `kind_of_end` tells how an end touches, `between` is
 /// the end in the keys of contacts between the ends.
 fn share_bars(
-    found: &mut [ContactCandidate],
+    found: &mut Table<ContactCandidate>,
     (kind_of_end, between): (PrimitiveKind, u32),
     context: &PairContext<'_>,
     shared_contacts: &mut Table<SharedContact>,
@@ -120,7 +121,13 @@ fn share_bars(
 ) -> Result<(), Full> {
     let mut outcome = Ok(());
     let surface = |found: &ContactCandidate| (found.key.head(), found.key.shell_b);
-    for body in found.chunk_by_mut(|a, b| surface(a) == surface(b)) {
+    let (mut next, of_testers) = (0, found.len());
+    while next < of_testers {
+        let first = next;
+        let of_one = surface(&found[first]);
+        next += found[first..of_testers].iter().take_while(|other| surface(other) == of_one).count();
+        let room = found.capacity() - found.len();
+        let body = &mut found[first..next];
         let edges = body.partition_point(|found| found.key.end < between);
         let joint = body.len() > 1 && is_joint(&body[0], context);
         if joint {
@@ -141,6 +148,27 @@ fn share_bars(
                 outcome = outcome.and(find_shares(end, &context.body_b.triangles, shared_contacts, scratch));
             }
         }
+        if kind_of_end == PrimitiveKind::Sphere {
+            if !joint && axes::yields_as_one(ends, middle) {
+                let mut added = axes::Added::default();
+                let shared = match room >= added.len() {
+                    true => axes::share(context, (&mut *ends, &mut *middle), &mut added, scratch),
+                    false => Err(Full { asked: 0, free: 0, capacity: 0 }),
+                };
+                let is_shared = matches!(shared, Ok(true));
+                outcome = outcome.and(shared.map(|_| ()));
+                if is_shared {
+                    drop_idle(ends);
+                    for contact in added.into_iter().flatten() {
+                        found.push(contact)?;
+                    }
+                    continue;
+                }
+            }
+            // A stand-in only tells that an edge is beside the axis.
+            let beside = middle.iter_mut().filter(|contact| contact.status == CandidateStatus::StandIn);
+            beside.for_each(|contact| contact.status = CandidateStatus::Culled);
+        }
         if !middle.is_empty() {
             let two = ends.partition_point(|end| end.key.end < 2);
             couple(&mut ends[..two], middle);
@@ -149,6 +177,9 @@ fn share_bars(
         if joint {
             ends.sort_unstable_by_key(ContactCandidate::order);
         }
+    }
+    if found.len() > of_testers {
+        found.sort_unstable_by_key(ContactCandidate::order);
     }
     outcome
 }

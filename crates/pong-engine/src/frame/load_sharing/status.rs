@@ -23,7 +23,7 @@
 //! | 5 | `resolve_fallbacks` | contacts that share a spring | `Fallback`, `BackFaceFallback` | regular or culled |
 //! | 6 | `drop_what_the_body_lacks`; `drop_second_of_edges`; `drop_deeper_faces` | ellipsoid and polyhedron; sphere and polyhedron; ellipsoid and triangle | any | culled; culled or tracked (the second with a face of entry, the third if `BackFace`) |
 //! | 7 | `drop_deeper_of_convex_faces`; `cull_idle_stand_ins` | the same | faces that are `BackFace`; `StandIn` | tracked; culled |
-//! | 8 | `couple` | capsules | contacts between the ends | culled |
+//! | 8 | `couple`; on triangles `axes::share` | capsules | contacts between the ends; all of the capsule | culled; new contacts |
 //! | 9 | `drop_idle` | the same | without weight | tracked with a face of entry or as `BackFace`, otherwise culled |
 //!
 //! With a surface that B's model declares (`joint.rs`), passes 4 to 6 run on the candidates of each kind of B, exits of

@@ -270,8 +270,16 @@ impl<'a> ElementPair<'a> {
     }
 
     /// Adds the contact of a capsule's axis with an edge between its ends.
-    pub fn between_ends(&self, crossing: &Interference, found: &mut ChunkCandidates<'_>) {
-        self.emit(self.key_at(BETWEEN_ENDS), crossing, found, |out| out.share(true));
+    pub fn between_ends(
+        &self,
+        crossing: &Interference,
+        status: CandidateStatus,
+        found: &mut ChunkCandidates<'_>,
+    ) {
+        self.emit(self.key_at(BETWEEN_ENDS), crossing, found, |out| {
+            out.share(true);
+            out.status = status;
+        });
     }
 
     /// Adds the contact of a cylinder's side with an edge between its end discs.

@@ -24,7 +24,7 @@
 
 pub(crate) mod candidate;
 pub(crate) mod element_pair;
-mod nearest_side;
+pub(crate) mod nearest_side;
 mod on_triangle;
 pub(crate) mod pair_table;
 mod registered;

@@ -1,6 +1,7 @@
 //! Shapes and numbers shared by the geometry tests.
 
 pub mod levels;
+pub mod paths;
 
 use pong_geometry::primitive::{
     EdgePush, Ellipsoid, Lean, MayPush, NO_NEIGHBOR, Polyhedron, PolyhedronEdge, PolyhedronFace,

@@ -29,6 +29,7 @@ mod nearest;
 mod shared_contact;
 mod solve;
 mod spread;
+pub(super) mod two_ends;
 mod twofold;
 mod uncoupled;
 

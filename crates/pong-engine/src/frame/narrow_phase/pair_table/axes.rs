@@ -6,6 +6,7 @@ use crate::frame::narrow_phase::candidate::CandidateStatus;
 use crate::frame::narrow_phase::element_pair::{Ball, ChunkCandidates, ElementPair, end_spheres, wrong_kind};
 use crate::frame::narrow_phase::on_triangle::{Centre, on_triangle, thickness_for_disc};
 use crate::state::ContactRole;
+use pong_geometry::interference::axis_triangle::{AxisLine, is_beside_edge};
 use pong_geometry::interference::bar_polyhedron::{capsule_solid, segment_solid};
 use pong_geometry::interference::capsule_edge::{ConvexEdge, capsule_edge};
 use pong_geometry::interference::capsule_polyhedron::CapsuleAtPiece;
@@ -36,7 +37,7 @@ pub(super) fn capsule_polyhedron(
     for ball in Ball::at_ends(&end_spheres(capsule)) {
         ball_on_piece(pair, &ball, found);
     }
-    at_piece.each_crossing(|crossing| pair.between_ends(crossing, found));
+    at_piece.each_crossing(|crossing| pair.between_ends(crossing, CandidateStatus::Front, found));
 }
 
 /// Adds the contacts of a capsule with a convex solid. An end whose centre is inside has the face by which it
@@ -88,7 +89,7 @@ fn capsule_on_solid(
 }
 
 /// Adds the contacts of a capsule with a triangle: those of the end spheres, and those of the convex and free
-/// edges that the axis crosses.
+/// edges that the axis crosses. An edge that is beside the axis, but not crossed by it, gives a `StandIn`.
 pub(super) fn capsule_triangle(
     pair: &ElementPair<'_>,
     a: &TransformedPrimitive,
@@ -98,8 +99,26 @@ pub(super) fn capsule_triangle(
     for ball in Ball::at_ends(&end_spheres(capsule)) {
         ball_on_triangle(pair, &ball, false, found);
     }
+    let (set, triangle) = (&pair.body_b().triangles, pair.item_b.element);
+    let may_push = set.triangles[triangle as usize].may_push;
+    if !(0..3).any(|k| may_push.edge(k)) || AxisLine::new(capsule).misses(&set.corners(triangle)) {
+        return;
+    }
+    let mut is_told = false;
     each_edge_of_triangle(pair, |edge| {
-        capsule_edge(capsule, edge).iter().for_each(|crossing| pair.between_ends(crossing, found));
+        if let Some(crossing) = capsule_edge(capsule, edge) {
+            is_told = true;
+            pair.between_ends(&crossing, CandidateStatus::Front, found);
+        } else if !is_told && is_beside_edge(capsule, edge) {
+            is_told = true;
+            let beside = Interference {
+                depth: capsule.radius,
+                normal_b: edge.normals_b[0],
+                deepest_b: edge.ends_b[0],
+                feature: edge.feature,
+            };
+            pair.between_ends(&beside, CandidateStatus::StandIn, found);
+        }
     });
 }
 
@@ -346,9 +365,8 @@ pub(super) fn emit_halves<A>(
     }
 }
 
-/// Adds the contacts of a body with two ends on a round solid: of a segment or capsule at each end of the overlap and,
-/// on a cylinder or a cone, at the deepest point; of a cylinder or cone at places of its rims. Each contact has half a
-/// spring, and its share as weight.
+/// Adds the contacts of a body with two ends on a round solid: of a segment or capsule at each end of the overlap, of a
+/// cylinder or cone at places of its rims. Each contact has half a spring, and its share as weight.
 pub(super) fn emit_shares<A>(
     pair: &ElementPair<'_>,
     _: &A,

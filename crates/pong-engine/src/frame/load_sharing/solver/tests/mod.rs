@@ -2,6 +2,7 @@
 //! small.
 
 mod exact;
+mod two_ends;
 
 use super::shared_contact::{Coupling, all_couple};
 use super::*;
