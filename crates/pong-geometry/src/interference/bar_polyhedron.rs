@@ -10,7 +10,6 @@
 //! * *Otherwise* the plane is that of a face, or touches B along an edge. Turned about a vertex, about the part of the
 //!   axis across the normal, it would store less.
 
-use super::bar_walk::Whereabouts;
 use super::capsule_polyhedron::{CapsuleAtPiece, each_edge_near};
 use super::line_segment_polyhedron::part_in_solid;
 use super::round_surface::ROUNDING;
@@ -63,11 +62,14 @@ pub fn capsule_solid(capsule: &Capsule, polyhedron: &Polyhedron, entered: &[usiz
     bar.contacts(&load, bar.overlap(&load, &at_ends, from))
 }
 
+/// Where a place is: nearest to a feature, or inside the solid (`None`).
+pub(super) type Whereabouts = Option<Feature>;
+
 /// A bar of two half springs in B's frame.
 pub(super) struct Bar<'a> {
     ends: [Vec3; 2],
     /// Vector from end 0 to end 1, m.
-    pub(super) along: Vec3,
+    pub(super) along_b: Vec3,
     radius: f64,
     pub(super) polyhedron: &'a Polyhedron,
 }
@@ -134,15 +136,15 @@ fn spread(at: f64) -> f64 {
 
 impl<'a> Bar<'a> {
     fn new(ends: &[Vec3; 2], radius: f64, polyhedron: &'a Polyhedron) -> Self {
-        Self { ends: *ends, along: ends[1] - ends[0], radius, polyhedron }
+        Self { ends: *ends, along_b: ends[1] - ends[0], radius, polyhedron }
     }
 
     /// Returns a place of the axis, m.
     pub(super) fn place(&self, at: f64) -> Vec3 {
         if at <= 0.0 {
-            self.ends[0] + self.along * (at + 0.5)
+            self.ends[0] + self.along_b * (at + 0.5)
         } else {
-            self.ends[1] + self.along * (at - 0.5)
+            self.ends[1] + self.along_b * (at - 0.5)
         }
     }
 
@@ -171,7 +173,7 @@ impl<'a> Bar<'a> {
     fn on_tip(&self, at: f64, near: &Nearest) -> Option<Load> {
         let Nearest::At(distance, normal_b, feature) = *near else { return None };
         let depth = self.radius - distance;
-        let falls = normal_b.dot(&self.along) * (2.0 * at) <= -depth;
+        let falls = normal_b.dot(&self.along_b) * (2.0 * at) <= -depth;
         falls.then_some(Load { at, depth, normal_b, feature })
     }
 
@@ -215,11 +217,11 @@ impl<'a> Bar<'a> {
         if !is_near && part_in_solid(&LineSegment { ends: self.ends }, self.polyhedron).is_none() {
             return None;
         }
-        match self.nearest(0.0, (self.radius + 0.5 * self.along.norm()) * BEYOND_ROUNDING) {
+        match self.nearest(0.0, (self.radius + 0.5 * self.along_b.norm()) * BEYOND_ROUNDING) {
             Nearest::Far => None,
             Nearest::Inside => Some(((0.0, None), 1.0)),
             Nearest::At(_, normal, feature) => {
-                Some(((0.0, Some(feature)), if normal.dot(&self.along) > 0.0 { -1.0 } else { 1.0 }))
+                Some(((0.0, Some(feature)), if normal.dot(&self.along_b) > 0.0 { -1.0 } else { 1.0 }))
             }
         }
     }
@@ -274,7 +276,7 @@ impl<'a> Bar<'a> {
             FeatureKind::Vertex => (feature.index() as u32, None),
         };
         let flat = |v: Vec3| across.map_or(v, |edge| v - edge * edge.dot(&v));
-        let along = flat(self.along);
+        let along = flat(self.along_b);
         let from_middle = flat(self.polyhedron.vertices[place as usize].position - self.place(0.0));
         let square = along.norm_squared();
         let foot = from_middle.dot(&along) / divisor(square);
@@ -355,9 +357,9 @@ impl<'a> Bar<'a> {
         let edge = &self.polyhedron.edges[index];
         let push = edge.push.as_ref()?;
         let across = |v: Vec3| v - edge.direction * edge.direction.dot(&v);
-        let along = across(self.along);
+        let along = across(self.along_b);
         let square = along.norm_squared();
-        if square <= f64::EPSILON * self.along.norm_squared() {
+        if square <= f64::EPSILON * self.along_b.norm_squared() {
             return None;
         }
         let from_middle = self.polyhedron.vertices[edge.vertices[0] as usize].position - self.place(0.0);
@@ -456,7 +458,7 @@ impl<'a> Bar<'a> {
     /// place is below the plane. Where the whole axis overlaps, these are the two half springs at its ends. Below a
     /// sharp edge the load may be beside the overlap, which then reaches to it.
     fn contacts(&self, load: &Load, [from, to]: [f64; 2]) -> OverlapContacts {
-        let lean = load.normal_b.dot(&self.along);
+        let lean = load.normal_b.dot(&self.along_b);
         let overlap = [from.min(load.at), to.max(load.at)];
         let levers = match load.at {
             -0.5 => [1.0, 0.0],

@@ -6,12 +6,9 @@
 //! faces; for a vertex those square to its edges. So the place where the axis leaves a region has a closed form. Two
 //! regions compute the plane between them from the same numbers, so that rounding leads to no way back.
 
-use super::bar_polyhedron::Bar;
+use super::bar_polyhedron::{Bar, Whereabouts};
 use super::{Feature, FeatureKind};
 use crate::{Vec3, divisor};
-
-/// Where a place is: nearest to a feature, or inside the solid (`None`).
-pub(super) type Whereabouts = Option<Feature>;
 
 /// Nearest way along the axis to a plane, and what is beyond.
 struct Exit {
@@ -61,7 +58,7 @@ impl Bar<'_> {
 
     /// Returns where the axis leaves the region in which a place is.
     fn exit(&self, here: Whereabouts, at: f64, way: f64) -> Exit {
-        let (solid, place, along) = (self.polyhedron, self.place(at), self.along * way);
+        let (solid, place, along) = (self.polyhedron, self.place(at), self.along_b * way);
         let mut exit = Exit { away: f64::INFINITY, beyond: None };
         let Some(feature) = here else {
             for (index, face) in solid.faces.iter().enumerate() {

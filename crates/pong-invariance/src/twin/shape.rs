@@ -102,7 +102,7 @@ pub fn cut(base: &Base, random: &mut Random) -> Option<Twin> {
     cut_by_rule(base, random, BarsOn::Whole)
 }
 
-/// What capsules and segments touch if a solid is cut.
+/// Solids that capsules and segments touch if a solid is cut.
 #[derive(Clone, Copy, PartialEq)]
 enum BarsOn {
     Whole,
