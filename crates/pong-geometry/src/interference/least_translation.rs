@@ -78,7 +78,7 @@ pub(super) fn lattice(frame: [Vec3; 3]) -> impl Iterator<Item = Vec3> {
 /// Returns a normal at which D is a local minimum, by descent from `start`, or one beside a minimum of `known`. The descent
 /// ends early where the bodies are apart. `along` evaluates D near a normal.
 pub(super) fn descend(start: &Vec3, known: &[Vec3], along: impl Fn(&Vec3) -> Along) -> Vec3 {
-    newton(start, Limits { steps: 60, farthest: 0.5, enough: 0.0, known }, |normal| {
+    newton(start, Limits { steps: 60, farthest: 0.5, enough: 0.0, known_b: known }, |normal| {
         let Along { overlap, farthest_b, radii } = along(normal);
         let size = farthest_b.norm() + radii.amax();
         Local { value: overlap, slope_b: farthest_b - normal * overlap, bend: radii, less: overlap, size }
@@ -107,7 +107,7 @@ pub(super) struct Limits<'a> {
     /// A step that would lower the value by less than about this part of it is not taken.
     pub enough: f64,
     /// Minima that are known. A search that comes near one of them ends there.
-    pub known: &'a [Vec3],
+    pub known_b: &'a [Vec3],
 }
 
 /// Returns a unit vector at which a function is a local minimum, or at which it is not positive, or where the limits end
@@ -115,14 +115,14 @@ pub(super) struct Limits<'a> {
 pub(super) fn newton(start: &Vec3, limits: Limits<'_>, at: impl Fn(&Vec3) -> Local) -> Vec3 {
     /// Cosine above which a search has come to a known minimum: 0.026°.
     const JOINED: f64 = 1.0 - 1e-7;
-    let Limits { steps, farthest, enough, known } = limits;
+    let Limits { steps, farthest, enough, known_b } = limits;
     /// Rounding of the value, relative to the size of its terms.
     const ROUNDING: f64 = 8.0 * f64::EPSILON;
     let (mut normal, mut damping) = (*start, 0.0);
     let mut here = at(&normal);
     for _ in 0..steps {
         let Local { value, slope_b, bend, less, size } = here;
-        let joins = known.iter().any(|minimum| minimum.dot(&normal) > JOINED);
+        let joins = known_b.iter().any(|minimum| minimum.dot(&normal) > JOINED);
         if value <= 0.0 || joins || slope_b.norm() <= f64::EPSILON * size {
             break;
         }

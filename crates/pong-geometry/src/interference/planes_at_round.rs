@@ -105,7 +105,7 @@ impl BarAtPlanes<'_> {
     /// Returns the plane of a local minimum with the support function of one rim, by descent from a normal, or one beside a
     /// minimum of `known`.
     fn at_bottom(&self, end: usize, normal: &Vec3, known: &[Vec3]) -> Plane {
-        let limits = Limits { steps: 60, farthest: 0.3, enough: 0.0, known };
+        let limits = Limits { steps: 60, farthest: 0.3, enough: 0.0, known_b: known };
         self.plane(&newton(normal, limits, |n| self.near(end, n)), Feature::edge(end))
     }
 

@@ -57,7 +57,7 @@ struct Side {
     sign: f64,
 }
 
-/// How a body lies on a plate along one normal.
+/// Directions of a body that lies on a plate along one normal.
 #[derive(Clone, Copy)]
 struct Facing {
     /// Unit vector across the axis, level with the plate.
@@ -202,7 +202,7 @@ impl Plate {
         const FARTHEST: f64 = 0.3;
         let ends = self.bodies.iter().flat_map(|body| body.ends.iter().zip(body.radii));
         let reach = ends.map(|(end, radius)| end.amax() + radius).fold(0.0, f64::max);
-        newton(start, Limits { steps, farthest: FARTHEST, enough, known }, |n| {
+        newton(start, Limits { steps, farthest: FARTHEST, enough, known_b: known }, |n| {
             let here = self.along(n);
             let (slope_b, bend) = self.derivatives(&here, n);
             Local { value: here.energy, slope_b, bend, less: 0.0, size: here.energy.sqrt() * reach }
