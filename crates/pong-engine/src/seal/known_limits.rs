@@ -23,20 +23,6 @@ struct KnownLimit {
 
 const LIMITS: &[KnownLimit] = &[
     KnownLimit {
-        a: &[LineSegment, Capsule],
-        b: &[Cylinder, Cone],
-        may_show: always,
-        text: "the stored energy steps, by up to half of it, where the two axes pass 90° while an end of one touches beside an end \
-               of the other: closed paths may gain energy there; keep crossing axes away from their ends",
-    },
-    KnownLimit {
-        a: &[LineSegment, Capsule],
-        b: &[Cylinder, Cone],
-        may_show: always,
-        text: "what lies on a flat end has half or all of the stiffness by the sign of a tilt, and half at one side of the rim if it \
-               overhangs both: up to ¼kδ² gained per cycle; give a flat end on which something may lie a Polyhedron or triangles",
-    },
-    KnownLimit {
         a: &[Capsule],
         b: &[Polyhedron],
         may_show: has_pieces,
@@ -54,8 +40,8 @@ const LIMITS: &[KnownLimit] = &[
         a: &[Capsule],
         b: &[Triangle],
         may_show: always,
-        text: "a capsule that lies flat over an edge has half of the stiffness, at the ball or at the edge by the sign of a tilt and \
-               of how the face is cut: steps of up to 0.35·kδ; make what lies over edges of several capsules",
+        text: "once its axis has reached the surface, a capsule that lies over an edge has half of the stiffness, in one step; keep \
+               capsules less deep than their radius",
     },
     KnownLimit {
         a: &[Cylinder, Cone],
