@@ -31,7 +31,7 @@ const KNOWN: [(&str, u64, u64); 9] = [
     ("own_kinds", 0xffb05a545591efcc, 0x80173def935d7baf),
     ("crowd", 0xa6efc9208413bcf4, 0x6900a47b22bdebb9),
     ("bowl", 0x776b53145068c012, 0xf1abfd87a2c723bd),
-    ("swarm", 0xc0c805106b1b60fc, 0x2f2f4475acb7765d),
+    ("swarm", 0xa31169627d5ba0d9, 0x61ff7376855f0c39),
     ("round", 0xfc2ebb2f6bedb363, 0xd129601d40978f3b),
 ];
 
