@@ -137,7 +137,7 @@ fn the_wrench_is_minus_the_derivative_of_the_energy() {
     let (mut compared, mut worst) = (0, 0.0_f64);
     for case in 0..long_samples(2000, 60_000) {
         let solids = solids();
-        let b = &solids[case as usize % solids.len()];
+        let b = &solids[case % solids.len()];
         let a = random_bar(&mut random, b);
         let found = wrench(&a, b);
         let force = found.force.norm();
@@ -182,7 +182,7 @@ fn paths_gain_and_lose_nothing() {
     let solids = solids();
     let (mut touching, mut worst) = (0, 0.0_f64);
     for case in 0..long_samples(200, 100_000) {
-        let b = &solids[case as usize % solids.len()];
+        let b = &solids[case % solids.len()];
         let a = random_bar(&mut random, b);
         let (shift, turn) = (random.vector(0.3), random.vector(0.6));
         let place = |s: f64| moved(&a, &(shift * s), &(turn * s));
@@ -206,7 +206,7 @@ fn an_axis_through_an_edge_is_held_by_it() {
     let mut random = Random::new(35, 0, 0);
     let solids = solids();
     for case in 0..long_samples(600, 6000) {
-        let b = &solids[case as usize % solids.len()];
+        let b = &solids[case % solids.len()];
         let edge = &b.edges[random.below(b.edges.len())];
         let push = edge.push.unwrap();
         let [from, to] = edge.vertices.map(|vertex| b.vertices[vertex as usize].position);

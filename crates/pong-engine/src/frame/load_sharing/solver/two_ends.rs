@@ -109,8 +109,8 @@ impl Loaded {
             if step == f64::INFINITY {
                 return None;
             }
-            for k in 0..self.count {
-                self.members[k].1 = (self.members[k].1 - step * gives[k]).max(0.0);
+            for (member, give) in self.members[..self.count].iter_mut().zip(&gives) {
+                member.1 = (member.1 - step * give).max(0.0);
             }
             load += step;
             if is_free {
