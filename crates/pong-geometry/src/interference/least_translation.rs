@@ -110,11 +110,15 @@ pub(super) struct Limits<'a> {
     pub known_b: &'a [Vec3],
 }
 
+/// True beside one of the minima that are known: less than 0.026° away.
+fn is_near(known: &[Vec3], normal: &Vec3) -> bool {
+    const JOINED: f64 = 1.0 - 1e-7;
+    known.iter().any(|minimum| minimum.dot(normal) > JOINED)
+}
+
 /// Returns a unit vector at which a function is a local minimum, or at which it is not positive, or where the limits end
 /// the search.
 pub(super) fn newton(start: &Vec3, limits: Limits<'_>, at: impl Fn(&Vec3) -> Local) -> Vec3 {
-    /// Cosine above which a search has come to a known minimum: 0.026°.
-    const JOINED: f64 = 1.0 - 1e-7;
     let Limits { steps, farthest, enough, known_b } = limits;
     /// Rounding of the value, relative to the size of its terms.
     const ROUNDING: f64 = 8.0 * f64::EPSILON;
@@ -122,8 +126,7 @@ pub(super) fn newton(start: &Vec3, limits: Limits<'_>, at: impl Fn(&Vec3) -> Loc
     let mut here = at(&normal);
     for _ in 0..steps {
         let Local { value, slope_b, bend, less, size } = here;
-        let joins = known_b.iter().any(|minimum| minimum.dot(&normal) > JOINED);
-        if value <= 0.0 || joins || slope_b.norm() <= f64::EPSILON * size {
+        if value <= 0.0 || is_near(known_b, &normal) || slope_b.norm() <= f64::EPSILON * size {
             break;
         }
         let u = any_perpendicular(&normal);
@@ -193,7 +196,8 @@ pub(super) fn least_of_many(
         let normal = to_minimum(start, &known[..index]);
         known[index] = normal;
         let value = overlap(&normal);
-        if best.is_none_or(|(least, _)| value < least) {
+        // What ended beside a known minimum is not at its bottom, but may be no higher to rounding.
+        if best.is_none_or(|(least, _)| value < least) && !is_near(&known[..index], &normal) {
             best = Some((value, normal));
         }
     }
