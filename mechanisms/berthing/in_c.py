@@ -41,11 +41,12 @@ def rows(_):
 
 
 def _pressed():
-    """Compression of the rings by the latches; friction of the rollers takes a share of the pull."""
+    """Compression of the rings by the latches; friction of the rollers takes a share of the pull, and the module still rocks
+    by some 6 µm of the 100 when it is measured."""
     gap = statics.rest()[0]
     least = statics.latch(gap, 1.0, d.ROLLER_FRICTION) / statics.latch(gap, 1.0)
     yield ["pressed_gap", gap]
-    yield ["pressed_within", 1.0 - least + 0.05]
+    yield ["pressed_within", 1.0 - least + 0.1]
 
 
 def run(made):
