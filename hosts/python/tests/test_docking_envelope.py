@@ -18,7 +18,7 @@ import docking_envelope  # noqa: E402
 def test_the_approach_of_the_scene_itself_is_captured():
     plan = docking_envelope.plan(1)
     row = _case.outcome(_run.checked(plan), 0, np.zeros(len(plan.dispersions)))
-    assert row["captured"] and 400.0 < row["peak_force.target"] < 2000.0
+    assert row["captured"] and 300.0 < row["peak_force.target"] < 2000.0
     assert row["ended_by"] == "held" and row["time_at_end"] < 8.0 and row["contacts_at_start"] == 0
     # From half a metre aside it misses the target, which is recognised before the end.
     row = _case.outcome(_run.checked(plan), 0, np.array([0.5, 0.5, 0, 0, 0, 0, 0.0]))
