@@ -31,8 +31,8 @@ const KNOWN: [(&str, u64, u64); 9] = [
     ("own_kinds", 0xffb05a545591efcc, 0x80173def935d7baf),
     ("crowd", 0xa6efc9208413bcf4, 0x6900a47b22bdebb9),
     ("bowl", 0x776b53145068c012, 0xf1abfd87a2c723bd),
-    ("swarm", 0xa31169627d5ba0d9, 0x61ff7376855f0c39),
-    ("round", 0xfc2ebb2f6bedb363, 0xd129601d40978f3b),
+    ("swarm", 0xd3238414cdd36465, 0x4ab17f5dbf908e74),
+    ("round", 0xb1e28d3736f1270e, 0x77cc74374e058f2c),
 ];
 
 /// A scene run by the caller alone, with the data needed to continue from any frame.
