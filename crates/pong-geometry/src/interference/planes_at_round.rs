@@ -135,7 +135,8 @@ impl BarAtPlanes<'_> {
         let Frustum { axis, radii, ends, .. } = self.frustum;
         let level = axis.cross(normal);
         let up = level.cross(axis);
-        let place = ends[end] + up * (radii[end] / up.norm().max(f64::EPSILON));
+        // Added, far below rounding, because a compiler may divide by both sides of a comparison.
+        let place = ends[end] + up * (radii[end] / (up.norm() + 1e-150));
         let arms = self.ends_b.map(|end| place - end);
         (arms.map(|arm| self.radius + normal.dot(&arm)), arms, level)
     }
