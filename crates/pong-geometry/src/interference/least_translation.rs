@@ -139,14 +139,17 @@ pub(super) fn newton(start: &Vec3, limits: Limits<'_>, at: impl Fn(&Vec3) -> Loc
         let raise = damping + if least < floor { floor - least } else { 0.0 };
         let (uu, vv) = (uu + raise, vv + raise);
         let (along_u, along_v) = (u.dot(&slope_b), v.dot(&slope_b));
-        let determinant = (uu * vv - uv * uv).max(f64::MIN_POSITIVE);
+        // Both eigenvalues are at least the floor, but the difference of large products may be rounding.
+        let determinant = (uu * vv - uv * uv).max(floor * floor).max(f64::MIN_POSITIVE);
         let step = u * ((uv * along_v - vv * along_u) / determinant)
             + v * ((uv * along_u - uu * along_v) / determinant);
         if -step.dot(&slope_b) < enough * value {
             break;
         }
         let length = step.norm();
-        let step = if length > farthest { step * (farthest / length) } else { step };
+        // Clamped, so that the divisor is not zero even if a compiler divides before the branch.
+        let shorter = farthest / length.max(f64::MIN_POSITIVE);
+        let step = if length > farthest { step * shorter } else { step };
         let next = (normal + step).normalize();
         let there = at(&next);
         let noise = ROUNDING * size;

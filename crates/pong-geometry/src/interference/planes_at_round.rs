@@ -13,7 +13,7 @@ use super::Feature;
 use super::circles::{Across, Reach};
 use super::least_translation::{Limits, Local, lattice, least_of_many, newton};
 use crate::primitive::Frustum;
-use crate::{Mat3, Vec3};
+use crate::{Mat3, Vec3, divisor};
 
 /// A plane behind B.
 #[derive(Clone, Copy, Debug)]
@@ -135,8 +135,7 @@ impl BarAtPlanes<'_> {
         let Frustum { axis, radii, ends, .. } = self.frustum;
         let level = axis.cross(normal);
         let up = level.cross(axis);
-        // Added, far below rounding, because a compiler may divide by both sides of a comparison.
-        let place = ends[end] + up * (radii[end] / (up.norm() + 1e-150));
+        let place = ends[end] + up * (radii[end] / divisor(up.norm()));
         let arms = self.ends_b.map(|end| place - end);
         (arms.map(|arm| self.radius + normal.dot(&arm)), arms, level)
     }
