@@ -391,7 +391,7 @@ impl<'a> Bar<'a> {
             distance = (height * height + square * beyond * beyond).sqrt();
             let left = quarter * (1.0 - 1.0 / ratio + feet * (ratio - 1.0));
             let difference = left - height * height - self.radius * distance;
-            let falls = self.radius * square * foot * beyond / divisor(distance);
+            let falls = self.radius * square * foot * beyond / distance.max(f64::MIN_POSITIVE);
             let slope = quarter * (1.0 / (ratio * ratio) + feet) - falls;
             if slope <= 0.0 {
                 return None;
