@@ -397,7 +397,8 @@ impl<'a> Bar<'a> {
                 return None;
             }
             let next = ratio - difference / slope;
-            if next * foot.abs() >= 0.5 {
+            // Beyond the end, or without a bound where the edge is at the middle of the axis: the square must not overflow.
+            if next * foot.abs() >= 0.5 || next > 1e150 {
                 return None;
             }
             let step = (next - ratio).abs();
