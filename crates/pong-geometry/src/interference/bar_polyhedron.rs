@@ -14,7 +14,7 @@ use super::capsule_polyhedron::{CapsuleAtPiece, each_edge_near};
 use super::line_segment_polyhedron::part_in_solid;
 use super::round_surface::ROUNDING;
 use super::sphere_polyhedron::{Beside, sphere_beside_polyhedron};
-use super::two_capsules::{OverlapContacts, lever_shares, zero_of_rising};
+use super::two_capsules::{OverlapContacts, lever_shares, load_of, place_on_axis, spread, zero_of_rising};
 use super::two_ended_round::EndContact;
 use super::{Feature, FeatureKind, Interference};
 use crate::primitive::{Capsule, LineSegment, PlaneBlock, Polyhedron, Sphere};
@@ -129,11 +129,6 @@ const BEYOND_ROUNDING: f64 = 1.0 + 1e-9;
 /// Energies within this factor count as equal, so that rounding does not choose between equal faces.
 const TIE: f64 = 1.0 - 1e-12;
 
-/// Returns W.
-fn spread(at: f64) -> f64 {
-    1.0 + 4.0 * at * at
-}
-
 impl<'a> Bar<'a> {
     fn new(ends: &[Vec3; 2], radius: f64, polyhedron: &'a Polyhedron) -> Self {
         Self { ends: *ends, along_b: ends[1] - ends[0], radius, polyhedron }
@@ -141,11 +136,7 @@ impl<'a> Bar<'a> {
 
     /// Returns a place of the axis, m.
     pub(super) fn place(&self, at: f64) -> Vec3 {
-        if at <= 0.0 {
-            self.ends[0] + self.along_b * (at + 0.5)
-        } else {
-            self.ends[1] + self.along_b * (at - 0.5)
-        }
+        place_on_axis(&self.ends, &self.along_b, at)
     }
 
     /// Rounding error of a distance, m.
@@ -285,14 +276,7 @@ impl<'a> Bar<'a> {
 
     /// Returns the load on a plane below which the ends have these depths, of which one at least is positive.
     fn on_plane(&self, depths: [f64; 2], normal_b: Vec3, feature: Feature) -> Load {
-        let (at, depth) = match depths {
-            [one, other] if other <= 0.0 => (-0.5, one),
-            [one, other] if one <= 0.0 => (0.5, other),
-            [one, other] => {
-                let at = 0.5 * ((other - one) / (one + other));
-                (at, 0.5 * (one + other) + at * (other - one))
-            }
-        };
+        let (at, depth) = load_of(depths);
         Load { at, depth, normal_b, feature }
     }
 

@@ -99,11 +99,7 @@ impl TwoAxes {
 
     /// Returns a place on A's axis, m.
     pub fn place_a(&self, at: f64) -> Vec3 {
-        if at <= 0.0 {
-            self.ends_a[0] + self.along_b[0] * (at + 0.5)
-        } else {
-            self.ends_a[1] + self.along_b[0] * (at - 0.5)
-        }
+        place_on_axis(&self.ends_a, &self.along_b[0], at)
     }
 
     /// Returns the load; `None` if the two do not touch.
@@ -277,6 +273,29 @@ impl Load {
 fn place_on(ends: &[Vec3; 2], point: &Vec3) -> f64 {
     let along = ends[1] - ends[0];
     (along.dot(&(point - ends[0])) / along.norm_squared() - 0.5).clamp(-0.5, 0.5)
+}
+
+/// Returns the place at −½…½ of an axis, m, from the end that is nearer; `along` is the vector from end 0 to end 1.
+pub(super) fn place_on_axis(ends: &[Vec3; 2], along: &Vec3, at: f64) -> Vec3 {
+    if at <= 0.0 { ends[0] + along * (at + 0.5) } else { ends[1] + along * (at - 0.5) }
+}
+
+/// Returns W at a place −½…½ of an axis: a load there has the stiffness k/W.
+pub(super) fn spread(at: f64) -> f64 {
+    1.0 + 4.0 * at * at
+}
+
+/// Returns the place of a load on a plane below which the ends of an axis have these depths, and its depth; one at least is
+/// positive.
+pub(super) fn load_of(depths: [f64; 2]) -> (f64, f64) {
+    match depths {
+        [one, other] if other <= 0.0 => (-0.5, one),
+        [one, other] if one <= 0.0 => (0.5, other),
+        [one, other] => {
+            let at = 0.5 * ((other - one) / (one + other));
+            (at, 0.5 * (one + other) + at * (other - one))
+        }
+    }
 }
 
 /// Returns what `visit` finds at the zero of a function that rises from −½ to ½, or at the end of the

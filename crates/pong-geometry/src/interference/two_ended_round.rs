@@ -9,7 +9,7 @@
 use super::planes_at_round::{BarAtPlanes, Plane};
 use super::round_surface::{Nearest, ROUNDING, of_frustum};
 pub use super::two_capsules::EndContact;
-use super::two_capsules::{OverlapContacts, lever_shares, zero_of_rising};
+use super::two_capsules::{OverlapContacts, lever_shares, load_of, place_on_axis, spread, zero_of_rising};
 use super::{Feature, Interference};
 use crate::primitive::{Capsule, Frustum, LineSegment};
 use crate::{Mat3, Vec3, divisor};
@@ -54,10 +54,6 @@ impl BarLoad {
     pub fn spread(&self) -> f64 {
         spread(self.at)
     }
-}
-
-fn spread(at: f64) -> f64 {
-    1.0 + 4.0 * at * at
 }
 
 /// A place that the search for the load visits.
@@ -105,11 +101,7 @@ impl<'a> BarOnFrustum<'a> {
 
     /// Returns a place on the axis, m.
     pub fn place(&self, at: f64) -> Vec3 {
-        if at <= 0.0 {
-            self.ends[0] + self.along_b * (at + 0.5)
-        } else {
-            self.ends[1] + self.along_b * (at - 0.5)
-        }
+        place_on_axis(&self.ends, &self.along_b, at)
     }
 
     fn contacts(&self) -> OverlapContacts {
@@ -297,16 +289,3 @@ impl<'a> BarOnFrustum<'a> {
 /// Distance of two places inside B, relative to the length of the axis, below which different nearest sides tell that the
 /// load is where both are equally near.
 const NEAR: f64 = 0.05;
-
-/// Returns the place of a load on a plane below which the ends have these depths, and its depth; one at least is
-/// positive.
-fn load_of(depths: [f64; 2]) -> (f64, f64) {
-    match depths {
-        [one, other] if other <= 0.0 => (-0.5, one),
-        [one, other] if one <= 0.0 => (0.5, other),
-        [one, other] => {
-            let at = 0.5 * ((other - one) / (one + other));
-            (at, 0.5 * (one + other) + at * (other - one))
-        }
-    }
-}

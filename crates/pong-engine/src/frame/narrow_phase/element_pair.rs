@@ -269,27 +269,16 @@ impl<'a> ElementPair<'a> {
         self.emit(key, contact, found, |out| out.share(ball.end.is_some()));
     }
 
-    /// Adds the contact of a capsule's axis with an edge between its ends.
-    pub fn between_ends(
+    /// Adds the contact of a capsule's axis, or of a cylinder's side, with an edge; `part` is [`BETWEEN_ENDS`] or
+    /// [`BETWEEN_DISCS`].
+    pub fn between(
         &self,
+        part: u32,
         crossing: &Interference,
         status: CandidateStatus,
         found: &mut ChunkCandidates<'_>,
     ) {
-        self.emit(self.key_at(BETWEEN_ENDS), crossing, found, |out| {
-            out.share(true);
-            out.status = status;
-        });
-    }
-
-    /// Adds the contact of a cylinder's side with an edge between its end discs.
-    pub fn between_discs(
-        &self,
-        crossing: &Interference,
-        status: CandidateStatus,
-        found: &mut ChunkCandidates<'_>,
-    ) {
-        self.emit(self.key_at(BETWEEN_DISCS), crossing, found, |out| {
+        self.emit(self.key_at(part), crossing, found, |out| {
             out.share(true);
             out.status = status;
         });

@@ -3,7 +3,9 @@
 use super::balls::{ball_on_piece, ball_on_triangle, emit_in_bore};
 use crate::frame::broad_phase::transformed::TransformedPrimitive;
 use crate::frame::narrow_phase::candidate::CandidateStatus;
-use crate::frame::narrow_phase::element_pair::{Ball, ChunkCandidates, ElementPair, end_spheres, wrong_kind};
+use crate::frame::narrow_phase::element_pair::{
+    BETWEEN_DISCS, BETWEEN_ENDS, Ball, ChunkCandidates, ElementPair, end_spheres, wrong_kind,
+};
 use crate::frame::narrow_phase::on_triangle::{Centre, on_triangle, thickness_for_disc};
 use crate::state::ContactRole;
 use pong_geometry::interference::axis_triangle::{AxisLine, is_beside_edge};
@@ -37,7 +39,7 @@ pub(super) fn capsule_polyhedron(
     for ball in Ball::at_ends(&end_spheres(capsule)) {
         ball_on_piece(pair, &ball, found);
     }
-    at_piece.each_crossing(|crossing| pair.between_ends(crossing, CandidateStatus::Front, found));
+    at_piece.each_crossing(|crossing| pair.between(BETWEEN_ENDS, crossing, CandidateStatus::Front, found));
 }
 
 /// Adds the contacts of a capsule with a convex solid. An end whose centre is inside has the face by which it
@@ -108,7 +110,7 @@ pub(super) fn capsule_triangle(
     each_edge_of_triangle(pair, |edge| {
         if let Some(crossing) = capsule_edge(capsule, edge) {
             is_told = true;
-            pair.between_ends(&crossing, CandidateStatus::Front, found);
+            pair.between(BETWEEN_ENDS, &crossing, CandidateStatus::Front, found);
         } else if !is_told && is_beside_edge(capsule, edge) {
             is_told = true;
             let beside = Interference {
@@ -117,7 +119,7 @@ pub(super) fn capsule_triangle(
                 deepest_b: edge.ends_b[0],
                 feature: edge.feature,
             };
-            pair.between_ends(&beside, CandidateStatus::StandIn, found);
+            pair.between(BETWEEN_ENDS, &beside, CandidateStatus::StandIn, found);
         }
     });
 }
@@ -179,7 +181,7 @@ pub(super) fn frustum_polyhedron(
     let mut push_side = |crossing: &Interference| {
         if is_way_out(crossing, over_face) {
             is_pushed = true;
-            pair.between_discs(crossing, CandidateStatus::Front, found);
+            pair.between(BETWEEN_DISCS, crossing, CandidateStatus::Front, found);
         }
     };
     if let Some(side) = side_of(frustum) {
@@ -228,7 +230,7 @@ fn push_sunk_side(
     if is_sunk || !is_pushed {
         let is_whole = polyhedron.planes().all_active;
         let status = if is_whole { CandidateStatus::Front } else { CandidateStatus::StandIn };
-        pair.between_discs(&way_out, status, found);
+        pair.between(BETWEEN_DISCS, &way_out, status, found);
     }
 }
 
@@ -267,7 +269,7 @@ pub(super) fn frustum_triangle(
             edge.normals_b.iter().map(|normal| frustum.support(&-normal) + normal.dot(&edge.ends_b[0]));
         let over_face = over_face.fold(f64::INFINITY, f64::min);
         let pushes = crossing.iter().filter(|crossing| is_way_out(crossing, over_face));
-        pushes.for_each(|crossing| pair.between_discs(crossing, CandidateStatus::Front, found));
+        pushes.for_each(|crossing| pair.between(BETWEEN_DISCS, crossing, CandidateStatus::Front, found));
     });
 }
 
