@@ -41,23 +41,16 @@ pub(super) fn moves_on_round(bar: &BarOnFrustum<'_>, radius: f64, end: usize) ->
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::tangent::differences::{Sides, moved};
+    use pong_geometry::Vec3;
     use pong_geometry::interference::two_ended_round::{EndContact, capsule_frustum, segment_frustum};
     use pong_geometry::primitive::{Capsule, Frustum, LineSegment};
-    use pong_geometry::{Quat, Transform, Vec3};
     use pong_testkit::Random;
-
-    fn moved(a: &Capsule, k: usize, by: f64) -> Capsule {
-        let t = Vec3::ith(k % 3, by);
-        let (shift, turn) =
-            if k < 3 { (t, Quat::identity()) } else { (Vec3::zeros(), Quat::from_scaled_axis(t)) };
-        a.carried(&Transform { rotation: turn.to_rotation_matrix().into_inner(), translation: shift })
-    }
 
     /// Depth, normal, place and weight against central differences of the tester: at the wall, at rims and ends, outside
     /// and sunk in, with the load and the overlap at ends of the axis and between.
     #[test]
     fn moves_of_bars_on_cylinders_and_cones() {
-        const STEP: f64 = 1e-5;
         let mut random = Random::new(9, 0, 0);
         let (mut compared, mut differing) = ([0; 2], 0);
         for case in 0..2000 {
@@ -79,36 +72,19 @@ mod tests {
                 let bar = BarOnFrustum::new(&a.ends, a.radius, &b);
                 let Some(known) = moves_on_round(&bar, a.radius, end) else { continue };
                 for k in 0..6 {
-                    let sides = [-2.0, -1.0, 1.0, 2.0].map(|side| found(side * STEP, k)[end]);
-                    let [Some(low), Some(less), Some(more), Some(high)] = sides else { continue };
-                    let slope = |of: &dyn Fn(&EndContact) -> f64| {
-                        (8.0 * (of(&more) - of(&less)) - (of(&high) - of(&low))) / (12.0 * STEP)
-                    };
-                    let halves = [&high, &low].map(|side| (side.share - here.share).abs());
-                    let bends = (halves[0] - halves[1]).abs() > 0.1 * (halves[0] + halves[1]);
-                    let turns = [&high, &low]
-                        .map(|side| (side.interference.normal_b - here.interference.normal_b).norm());
-                    let leaps = turns[0].max(turns[1]) > 1e-3
-                        || (turns[0] - turns[1]).abs() > 0.1 * (turns[0] + turns[1]);
-                    let features = sides.iter().flatten().map(|side| side.interference.feature);
+                    let Some(sides) = Sides::new(|by| found(by, k)[end]) else { continue };
+                    let normal = here.interference.normal_b;
+                    let turn = |side: &EndContact| (side.interference.normal_b - normal).norm();
+                    let bends = sides.bends(|side| (side.share - here.share).abs());
+                    let [low, _, _, high] = sides.all();
+                    let leaps = turn(low).max(turn(high)) > 1e-3 || sides.bends(turn);
+                    let features = sides.all().map(|side| side.interference.feature);
                     let changes = features.into_iter().any(|feature| feature != here.interference.feature);
                     if here.interference.depth < 0.02 || bends || leaps || changes {
                         differing += 1;
                         continue;
                     }
-                    let place = |axis: usize| slope(&|c| c.interference.deepest_b[axis]);
-                    let normal = |axis: usize| slope(&|c| c.interference.normal_b[axis]);
-                    let off = [
-                        known.moves.depth[k] - slope(&|c| c.interference.depth),
-                        known.weight[k] - slope(&|c| c.share),
-                        (known.moves.normal.column(k) - Vec3::from([0, 1, 2].map(normal))).norm(),
-                        (known.moves.deepest.column(k) - Vec3::from([0, 1, 2].map(place))).norm(),
-                    ];
-                    let limit = 1e-4 * (1.0 + known.weight.amax() + known.moves.deepest.amax());
-                    assert!(
-                        off.iter().all(|off| off.abs() < limit),
-                        "case {case}, {end}, {k}: {off:?} {here:?} {a:?} {b:?}"
-                    );
+                    sides.agree(&known, k, &format!("case {case}, {end}: {here:?} {a:?} {b:?}"));
                     compared[usize::from(radius > 0.0)] += 1;
                 }
             }

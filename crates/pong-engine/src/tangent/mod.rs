@@ -16,6 +16,8 @@ mod bar_on_round;
 mod bars;
 mod blocks;
 mod contact;
+#[cfg(test)]
+mod differences;
 mod friction;
 mod moves;
 mod potential;

@@ -149,24 +149,15 @@ pub(super) fn of_end_of_overlap(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::tangent::differences::{Sides, moved};
     use pong_geometry::interference::two_capsules::capsule_capsule;
-    use pong_geometry::interference::two_ended_round::EndContact;
     use pong_geometry::primitive::Capsule;
-    use pong_geometry::{Quat, Transform};
     use pong_testkit::Random;
-
-    fn moved(a: &Capsule, k: usize, by: f64) -> Capsule {
-        let t = Vec3::ith(k % 3, by);
-        let (shift, turn) =
-            if k < 3 { (t, Quat::identity()) } else { (Vec3::zeros(), Quat::from_scaled_axis(t)) };
-        a.carried(&Transform { rotation: turn.to_rotation_matrix().into_inner(), translation: shift })
-    }
 
     /// Depth, normal, place and weight against central differences of the tester: in the middle of both axes, with
     /// places at ends, and with the overlap at ends.
     #[test]
     fn moves_of_two_capsules() {
-        const STEP: f64 = 1e-5;
         let mut random = Random::new(8, 0, 0);
         let mut compared = 0;
         for case in 0..2000 {
@@ -183,26 +174,12 @@ mod tests {
                 let axes = TwoAxes::new(&a.ends, a.radius, &b);
                 let Some(known) = moves_at_end(&axes, a.radius, end) else { continue };
                 for k in 0..6 {
-                    let sides = [-2.0, -1.0, 1.0, 2.0].map(|side| found(side * STEP, k)[end]);
-                    let [Some(low), Some(less), Some(more), Some(high)] = sides else { continue };
-                    let slope = |of: &dyn Fn(&EndContact) -> f64| {
-                        (8.0 * (of(&more) - of(&less)) - (of(&high) - of(&low))) / (12.0 * STEP)
-                    };
-                    let halves = [&high, &low].map(|side| (side.share - here.share).abs());
-                    let bends = (halves[0] - halves[1]).abs() > 0.1 * (halves[0] + halves[1]);
+                    let Some(sides) = Sides::new(|by| found(by, k)[end]) else { continue };
+                    let bends = sides.bends(|side| (side.share - here.share).abs());
                     if here.interference.depth < 0.02 || bends {
                         continue;
                     }
-                    let place = |axis: usize| slope(&|c| c.interference.deepest_b[axis]);
-                    let normal = |axis: usize| slope(&|c| c.interference.normal_b[axis]);
-                    let off = [
-                        known.moves.depth[k] - slope(&|c| c.interference.depth),
-                        known.weight[k] - slope(&|c| c.share),
-                        (known.moves.normal.column(k) - Vec3::from([0, 1, 2].map(normal))).norm(),
-                        (known.moves.deepest.column(k) - Vec3::from([0, 1, 2].map(place))).norm(),
-                    ];
-                    let limit = 1e-4 * (1.0 + known.weight.amax() + known.moves.deepest.amax());
-                    assert!(off.iter().all(|off| off.abs() < limit), "case {case}, {end}, {k}: {off:?}");
+                    sides.agree(&known, k, &format!("case {case}, {end}"));
                     compared += 1;
                 }
             }

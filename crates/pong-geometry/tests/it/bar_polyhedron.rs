@@ -1,9 +1,10 @@
 //! Capsules and segments on convex solids: the energy against its definition by planes, the wrench against the
 //! energy, closed forms, and invariances.
 
-use crate::common::paths::gained;
+use crate::common::bars::{
+    bar as capsule, component, gained_along, least_from, moved, moved_by, pushed, slope, stored,
+};
 use crate::common::{cuboid, fibonacci_sphere, random_motion, stretched_hull};
-use crate::two_capsules::{capsule, moved};
 use pong_geometry::bounding::Bounded;
 use pong_geometry::interference::bar_polyhedron::{capsule_solid, segment_solid};
 use pong_geometry::interference::two_capsules::OverlapContacts;
@@ -21,17 +22,12 @@ fn contacts(a: &Capsule, b: &Polyhedron) -> OverlapContacts {
 
 /// Energy with a stiffness of 1 N/m.
 fn energy(a: &Capsule, b: &Polyhedron) -> f64 {
-    contacts(a, b).iter().flatten().map(|c| 0.25 * c.share * c.interference.depth.powi(2)).sum()
+    stored(&contacts(a, b))
 }
 
 /// Force on A and its moment about the origin, with a stiffness of 1 N/m.
 fn wrench(a: &Capsule, b: &Polyhedron) -> Wrench {
-    let mut sum = Wrench::zero();
-    for contact in contacts(a, b).iter().flatten() {
-        let found = contact.interference;
-        sum += Wrench::of_force_at(found.normal_b * (0.5 * contact.share * found.depth), &found.deepest_b);
-    }
-    sum
+    pushed(&contacts(a, b))
 }
 
 /// Boxes, hulls, a plate and a needle.
@@ -79,32 +75,8 @@ fn least_on_planes(a: &Capsule, b: &Polyhedron) -> f64 {
         let [one, other] = edge.faces.map(|face| b.faces[face as usize].normal);
         (1..8).map(move |k| one.lerp(&other, f64::from(k) / 8.0).normalize())
     });
-    let mut starts: Vec<(f64, Vec3)> = fibonacci_sphere(300)
-        .into_iter()
-        .chain(faces)
-        .chain(edges)
-        .map(|n| (on_plane(a, b, &n), n))
-        .collect();
-    starts.sort_by(|x, y| x.0.total_cmp(&y.0));
-    let mut least = f64::INFINITY;
-    for (mut best, mut n) in starts.into_iter().take(6) {
-        let mut step = 0.1;
-        while step > 1e-9 {
-            let u = n.cross(&Vec3::ith(n.iamin(), 1.0)).normalize();
-            let v = n.cross(&u);
-            let tried = (0..32).map(|k| {
-                let (sin, cos) = (std::f64::consts::TAU * f64::from(k) / 32.0).sin_cos();
-                let n = (n + (u * cos + v * sin) * step).normalize();
-                (on_plane(a, b, &n), n)
-            });
-            match tried.min_by(|x, y| x.0.total_cmp(&y.0)) {
-                Some((value, better)) if value < best => (best, n) = (value, better),
-                _ => step *= 0.5,
-            }
-        }
-        least = least.min(best);
-    }
-    least
+    let normals = fibonacci_sphere(300).into_iter().chain(faces).chain(edges);
+    least_from(normals, 6, (32, 1e-9), |n| on_plane(a, b, n))
 }
 
 /// The energy is the least on any plane that has B behind it, and the plane of the contacts stores it.
@@ -149,24 +121,19 @@ fn the_wrench_is_minus_the_derivative_of_the_energy() {
         }
         compared += 1;
         for k in 0..6 {
-            let along = Vec3::ith(k % 3, 1.0);
-            let at = |by: f64| {
-                let (shift, turn) = if k < 3 { (along * by, 0.0 * along) } else { (0.0 * along, along * by) };
-                energy(&moved(&a, &shift, &turn), b)
-            };
+            let at = |by: f64| energy(&moved_by(&a, k, by), b);
             let [less, here, more] = [-2.0 * STEP, 0.0, 2.0 * STEP].map(at);
             if (more - 2.0 * here + less).abs() > 1e-3 * force * STEP {
                 continue;
             }
-            let slope_by = |h: f64| (8.0 * (at(h) - at(-h)) - (at(2.0 * h) - at(-2.0 * h))) / (12.0 * h);
-            let slope = slope_by(STEP);
+            let [found_by, twice] = [STEP, 2.0 * STEP].map(|step| slope(at, step));
             // Where the place of the load comes into another region, the curvature steps.
-            if (slope - slope_by(2.0 * STEP)).abs() > 3e-7 * force {
+            if (found_by - twice).abs() > 3e-7 * force {
                 continue;
             }
-            let part = if k < 3 { found.force[k] } else { found.moment[k - 3] };
-            let off = (part + slope).abs() / force;
-            assert!(off < 1e-6, "case {case}, {k}: {part} {slope} {a:?}");
+            let part = component(&found, k);
+            let off = (part + found_by).abs() / force;
+            assert!(off < 1e-6, "case {case}, {k}: {part} {found_by} {a:?}");
             worst = worst.max(off);
         }
     }
@@ -185,13 +152,7 @@ fn paths_gain_and_lose_nothing() {
         let b = &solids[case % solids.len()];
         let a = random_bar(&mut random, b);
         let (shift, turn) = (random.vector(0.3), random.vector(0.6));
-        let place = |s: f64| moved(&a, &(shift * s), &(turn * s));
-        let power = |s: f64| {
-            let Wrench { force, moment } = wrench(&place(s), b);
-            // The screw turns about the origin of A's frame, which is at shift·s.
-            force.dot(&shift) + (moment - (shift * s).cross(&force)).dot(&turn)
-        };
-        let Some(gained) = gained(|s| energy(&place(s), b), power, 1e-4) else { continue };
+        let Some(gained) = gained_along(&a, &shift, &turn, |a| contacts(a, b)) else { continue };
         assert!(gained < 1e-9, "case {case}: {gained:e} of the largest stored {a:?}");
         worst = worst.max(gained);
         touching += 1;

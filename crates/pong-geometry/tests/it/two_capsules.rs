@@ -1,16 +1,14 @@
 //! Two capsules, and a segment and a capsule: the energy against its definition by planes, the wrench against
 //! the energy, closed forms, and invariances.
 
-use crate::common::paths::gained;
+use crate::common::bars::{
+    bar as capsule, component, gained_along, least_from, moved, moved_by, pushed, slope, stored,
+};
 use crate::common::{fibonacci_sphere, random_motion};
 use pong_geometry::interference::two_capsules::{OverlapContacts, capsule_capsule, segment_capsule};
 use pong_geometry::primitive::{Capsule, LineSegment};
 use pong_geometry::{Quat, Transform, Vec3, Wrench};
 use pong_testkit::{Random, assert_near, long_samples};
-
-pub fn capsule(ends: [[f64; 3]; 2], radius: f64) -> Capsule {
-    Capsule { ends: ends.map(Vec3::from), radius }
-}
 
 /// Contacts of A with B; A is a segment if it has no radius.
 fn contacts(a: &Capsule, b: &Capsule) -> OverlapContacts {
@@ -19,18 +17,12 @@ fn contacts(a: &Capsule, b: &Capsule) -> OverlapContacts {
 
 /// Energy with a stiffness of 1 N/m.
 fn energy(a: &Capsule, b: &Capsule) -> f64 {
-    let stored = |share: f64, depth: f64| 0.25 * share * depth * depth;
-    contacts(a, b).iter().flatten().map(|c| stored(c.share, c.interference.depth)).sum()
+    stored(&contacts(a, b))
 }
 
 /// Force on A and its moment about the origin, with a stiffness of 1 N/m.
 fn wrench(a: &Capsule, b: &Capsule) -> Wrench {
-    let mut sum = Wrench::zero();
-    for contact in contacts(a, b).iter().flatten() {
-        let found = contact.interference;
-        sum += Wrench::of_force_at(found.normal_b * (0.5 * contact.share * found.depth), &found.deepest_b);
-    }
-    sum
+    pushed(&contacts(a, b))
 }
 
 fn force(a: &Capsule, b: &Capsule) -> f64 {
@@ -79,28 +71,7 @@ fn on_plane(a: &Capsule, b: &Capsule, n: &Vec3) -> f64 {
 
 /// Least energy on a plane between the two, by descent from the best of many directions.
 fn least_on_planes(a: &Capsule, b: &Capsule) -> f64 {
-    let mut starts: Vec<(f64, Vec3)> =
-        fibonacci_sphere(300).into_iter().map(|n| (on_plane(a, b, &n), n)).collect();
-    starts.sort_by(|x, y| x.0.total_cmp(&y.0));
-    let mut least = f64::INFINITY;
-    for (mut best, mut n) in starts.into_iter().take(6) {
-        let mut step = 0.1;
-        while step > 1e-9 {
-            let u = n.cross(&Vec3::ith(n.iamin(), 1.0)).normalize();
-            let v = n.cross(&u);
-            let tried = (0..8).map(|k| {
-                let (sin, cos) = (std::f64::consts::TAU * f64::from(k) / 8.0).sin_cos();
-                let n = (n + (u * cos + v * sin) * step).normalize();
-                (on_plane(a, b, &n), n)
-            });
-            match tried.min_by(|x, y| x.0.total_cmp(&y.0)) {
-                Some((value, better)) if value < best => (best, n) = (value, better),
-                _ => step *= 0.5,
-            }
-        }
-        least = least.min(best);
-    }
-    least
+    least_from(fibonacci_sphere(300).into_iter(), 6, (8, 1e-9), |n| on_plane(a, b, n))
 }
 
 /// The energy is the least that the two store on any plane between them, each with half of twice the stiffness at
@@ -120,12 +91,6 @@ fn the_energy_is_the_least_on_a_plane_between_the_two() {
     assert!(touching > long_samples(40, 300), "{touching}");
 }
 
-/// Capsule moved by a screw: translation and rotation vector.
-pub fn moved(a: &Capsule, shift: &Vec3, turn: &Vec3) -> Capsule {
-    let turn = Quat::from_scaled_axis(*turn);
-    Capsule { ends: a.ends.map(|end| turn * end + shift), radius: a.radius }
-}
-
 #[test]
 fn the_wrench_is_minus_the_derivative_of_the_energy() {
     const STEP: f64 = 1e-5;
@@ -142,13 +107,8 @@ fn the_wrench_is_minus_the_derivative_of_the_energy() {
         }
         compared += 1;
         for k in 0..6 {
-            let along = Vec3::ith(k % 3, 1.0);
-            let at = |by: f64| {
-                let (shift, turn) = if k < 3 { (along * by, 0.0 * along) } else { (0.0 * along, along * by) };
-                energy(&moved(&a, &shift, &turn), &b)
-            };
-            let slope = (8.0 * (at(STEP) - at(-STEP)) - (at(2.0 * STEP) - at(-2.0 * STEP))) / (12.0 * STEP);
-            let part = if k < 3 { found.force[k] } else { found.moment[k - 3] };
+            let slope = slope(|by| energy(&moved_by(&a, k, by), &b), STEP);
+            let part = component(&found, k);
             let off = (part + slope).abs() / force;
             assert!(off < 1e-5, "case {case}, {k}: {part} {slope} {a:?} {b:?}");
             worst = worst.max(off);
@@ -167,13 +127,7 @@ fn paths_gain_and_lose_nothing() {
     for case in 0..long_samples(600, 100_000) {
         let (a, b) = random_pair(&mut random, 0.1);
         let (shift, turn) = (random.vector(0.3), random.vector(0.6));
-        let place = |s: f64| moved(&a, &(shift * s), &(turn * s));
-        let power = |s: f64| {
-            let Wrench { force, moment } = wrench(&place(s), &b);
-            // The screw turns about the origin of A's frame, which is at shift·s.
-            force.dot(&shift) + (moment - (shift * s).cross(&force)).dot(&turn)
-        };
-        let Some(gained) = gained(|s| energy(&place(s), &b), power, 1e-4) else { continue };
+        let Some(gained) = gained_along(&a, &shift, &turn, |a| contacts(a, &b)) else { continue };
         assert!(gained < 1e-9, "case {case}: {gained:e} of the largest stored {a:?} {b:?}");
         worst = worst.max(gained);
         touching += 1;

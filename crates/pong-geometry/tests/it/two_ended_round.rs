@@ -1,7 +1,7 @@
 //! Segments and capsules on cylinders and cones: the energy against its definition by planes, the wrench against the
 //! energy, and closed forms.
 
-use crate::common::paths::gained;
+use crate::common::bars::{bar, component, gained_along, least_from, moved_by, pushed, slope, stored};
 use crate::common::{fibonacci_sphere, random_motion};
 use pong_geometry::bounding::Bounded;
 use pong_geometry::interference::two_capsules::OverlapContacts;
@@ -11,10 +11,6 @@ use pong_geometry::{Quat, Vec3, Wrench};
 use pong_testkit::{Random, assert_near, long_samples};
 use std::f64::consts::TAU;
 
-fn bar(ends: [[f64; 3]; 2], radius: f64) -> Capsule {
-    Capsule { ends: ends.map(Vec3::from), radius }
-}
-
 /// Contacts of A with B; A is a segment if it has no radius.
 fn contacts(a: &Capsule, b: &Frustum) -> OverlapContacts {
     if a.radius > 0.0 { capsule_frustum(a, b) } else { segment_frustum(&LineSegment { ends: a.ends }, b) }
@@ -22,18 +18,12 @@ fn contacts(a: &Capsule, b: &Frustum) -> OverlapContacts {
 
 /// Energy with a stiffness of 1 N/m.
 fn energy(a: &Capsule, b: &Frustum) -> f64 {
-    let stored = |share: f64, depth: f64| 0.25 * share * depth * depth;
-    contacts(a, b).iter().flatten().map(|c| stored(c.share, c.interference.depth)).sum()
+    stored(&contacts(a, b))
 }
 
 /// Force on A and its moment about the origin, with a stiffness of 1 N/m.
 fn wrench(a: &Capsule, b: &Frustum) -> Wrench {
-    let mut sum = Wrench::zero();
-    for contact in contacts(a, b).iter().flatten() {
-        let found = contact.interference;
-        sum += Wrench::of_force_at(found.normal_b * (0.5 * contact.share * found.depth), &found.deepest_b);
-    }
-    sum
+    pushed(&contacts(a, b))
 }
 
 fn force(a: &Capsule, b: &Frustum) -> f64 {
@@ -95,7 +85,7 @@ fn least_on_planes(a: &Capsule, b: &Frustum, few: usize) -> f64 {
     let u = b.axis.cross(&Vec3::ith(b.axis.iamin(), 1.0)).normalize();
     let v = b.axis.cross(&u);
     let at_wall = |angle: f64| on_plane(a, b, &b.wall_toward(&(u * angle.cos() + v * angle.sin())));
-    let mut least = on_plane(a, b, &b.axis).min(on_plane(a, b, &-b.axis));
+    let least = on_plane(a, b, &b.axis).min(on_plane(a, b, &-b.axis));
     let first = (0..360).map(|k| TAU * f64::from(k) / 360.0);
     let mut angle = first.min_by(|x, y| at_wall(*x).total_cmp(&at_wall(*y))).unwrap();
     let mut step = TAU / 360.0;
@@ -103,28 +93,8 @@ fn least_on_planes(a: &Capsule, b: &Frustum, few: usize) -> f64 {
         let better = [angle - step, angle + step].into_iter().find(|x| at_wall(*x) < at_wall(angle));
         if let Some(better) = better { angle = better } else { step *= 0.5 }
     }
-    least = least.min(at_wall(angle));
-    let mut starts: Vec<(f64, Vec3)> =
-        fibonacci_sphere(400).into_iter().map(|n| (on_plane(a, b, &n), n)).collect();
-    starts.sort_by(|x, y| x.0.total_cmp(&y.0));
-    for (mut best, mut n) in starts.into_iter().take(few) {
-        let mut step = 0.1;
-        while step > 1e-8 {
-            let u = n.cross(&Vec3::ith(n.iamin(), 1.0)).normalize();
-            let v = n.cross(&u);
-            let tried = (0..12).map(|k| {
-                let (sin, cos) = (TAU * f64::from(k) / 12.0).sin_cos();
-                let n = (n + (u * cos + v * sin) * step).normalize();
-                (on_plane(a, b, &n), n)
-            });
-            match tried.min_by(|x, y| x.0.total_cmp(&y.0)) {
-                Some((value, better)) if value < best => (best, n) = (value, better),
-                _ => step *= 0.5,
-            }
-        }
-        least = least.min(best);
-    }
-    least
+    let least = least.min(at_wall(angle));
+    least.min(least_from(fibonacci_sphere(400).into_iter(), few, (12, 1e-8), |n| on_plane(a, b, n)))
 }
 
 /// The energy is the least that A stores on any plane behind B, with half a spring at each end: outside and sunk in,
@@ -145,12 +115,6 @@ fn the_energy_is_the_least_on_a_plane_behind_the_solid() {
     assert!(touching.iter().all(|&count| count > long_samples(50, 1000)), "{touching:?}");
 }
 
-/// Bar moved by a screw: translation and rotation vector.
-fn moved(a: &Capsule, shift: &Vec3, turn: &Vec3) -> Capsule {
-    let turn = Quat::from_scaled_axis(*turn);
-    Capsule { ends: a.ends.map(|end| turn * end + shift), radius: a.radius }
-}
-
 #[test]
 fn the_wrench_is_minus_the_derivative_of_the_energy() {
     const STEP: f64 = 1e-5;
@@ -165,20 +129,15 @@ fn the_wrench_is_minus_the_derivative_of_the_energy() {
             continue;
         }
         for k in 0..6 {
-            let along = Vec3::ith(k % 3, 1.0);
-            let moved = |by: f64| {
-                let (shift, turn) = if k < 3 { (along * by, 0.0 * along) } else { (0.0 * along, along * by) };
-                moved(&a, &shift, &turn)
-            };
-            let at = |by: f64| energy(&moved(by), &b);
+            let moved = |by: f64| moved_by(&a, k, by);
             let turns = |by: f64| (wrench(&moved(by), &b).force - found.force).norm();
             // At a first touch, near an edge, and where two ways out cost the same, the second derivatives are large.
             if turns(2.0 * STEP).max(turns(-2.0 * STEP)) > 2e-3 * force {
                 steps += 1;
                 continue;
             }
-            let slope = (8.0 * (at(STEP) - at(-STEP)) - (at(2.0 * STEP) - at(-2.0 * STEP))) / (12.0 * STEP);
-            let part = if k < 3 { found.force[k] } else { found.moment[k - 3] };
+            let slope = slope(|by| energy(&moved(by), &b), STEP);
+            let part = component(&found, k);
             let off = (part + slope).abs() / force;
             assert!(off < 1e-6, "case {case}, {k}: {part} {slope} {a:?} {b:?}");
             worst = worst.max(off);
@@ -199,13 +158,7 @@ fn paths_gain_and_lose_nothing() {
         let b = random_frustum(&mut random);
         let a = random_bar(&mut random, &b);
         let (shift, turn) = (random.vector(0.3), random.vector(0.6));
-        let place = |s: f64| moved(&a, &(shift * s), &(turn * s));
-        let power = |s: f64| {
-            let Wrench { force, moment } = wrench(&place(s), &b);
-            // The screw turns about the origin of A's frame, which is at shift·s.
-            force.dot(&shift) + (moment - (shift * s).cross(&force)).dot(&turn)
-        };
-        let Some(gained) = gained(|s| energy(&place(s), &b), power, 1e-4) else { continue };
+        let Some(gained) = gained_along(&a, &shift, &turn, |a| contacts(a, &b)) else { continue };
         assert!(
             gained < 1e-9,
             "case {case}: {gained:e} of the largest stored {a:?} {b:?} {shift:?} {turn:?}"

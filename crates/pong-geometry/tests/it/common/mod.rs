@@ -1,5 +1,6 @@
 //! Shapes and numbers shared by the geometry tests.
 
+pub mod bars;
 pub mod levels;
 pub mod paths;
 
