@@ -66,8 +66,9 @@ pub fn ray_frustum(ray: &Ray, frustum: &Frustum) -> Option<RayHit> {
 
 /// Returns the outward unit normal at a point of the lateral surface.
 fn wall_normal(place: &Vec3, frustum: &Frustum) -> Vec3 {
-    let arm = place - frustum.ends[0];
-    let across = arm - frustum.axis * frustum.axis.dot(&arm);
+    // Twice: beside a tip rounding leaves a part along the axis that counts.
+    let square = |v: &Vec3| v - frustum.axis * frustum.axis.dot(v);
+    let across = square(&square(&(place - frustum.ends[0])));
     let aside = across.norm();
     let away =
         if aside > 0.0 { across / aside.max(f64::MIN_POSITIVE) } else { any_perpendicular(&frustum.axis) };
@@ -149,10 +150,20 @@ impl Line {
     fn in_round(&self, frustum: &Frustum) -> Option<Inside> {
         let [first, last] = frustum.radii;
         let widening = (last - first) / frustum.length;
-        let arm = self.start - frustum.ends[0];
+        // From the place nearest to a tip: elsewhere the terms of a line close to it cancel.
+        let (base, radius) = if last == 0.0 { (1, last) } else { (0, first) };
+        let from_start = self.start - frustum.ends[base];
+        let ahead = if radius == 0.0 { -self.direction.dot(&from_start) } else { 0.0 };
+        let inside = self.in_wall(&(from_start + self.direction * ahead), frustum, radius, widening)?;
+        Some(Inside { from: inside.from + ahead, to: inside.to + ahead })
+    }
+
+    /// Returns the same interval, measured from the place at `arm` from a point of the axis. `radius` is that of the wall
+    /// beside this point, and `widening` its change along the axis.
+    fn in_wall(&self, arm: &Vec3, frustum: &Frustum, radius: f64, widening: f64) -> Option<Inside> {
         let (height, climb) = (arm.dot(&frustum.axis), self.direction.dot(&frustum.axis));
         let (across, sideways) = (arm - frustum.axis * height, self.direction - frustum.axis * climb);
-        let (radius, opening) = (first + widening * height, widening * climb);
+        let (radius, opening) = (radius + widening * height, widening * climb);
         let a = sideways.norm_squared() - opening * opening;
         let b = across.dot(&sideways) - radius * opening;
         let c = across.norm_squared() - radius * radius;
