@@ -209,7 +209,21 @@ impl Bar<'_> {
             };
             in_front = in_front.and(found);
         });
+        self.sort();
         room.map(|()| in_front)
+    }
+
+    /// Sorts the places by triangle: of equal ones the first pushes, in whatever order the bounding volumes gave them.
+    fn sort(&mut self) {
+        let key = |source: &Source| (source.item.primitive, source.item.element);
+        for index in 1..self.items.len() {
+            let mut to = index;
+            while to > 0 && key(&self.items[to - 1]) > key(&self.items[to]) {
+                self.items.swap(to - 1, to);
+                self.places.swap(to - 1, to);
+                to -= 1;
+            }
+        }
     }
 
     /// Adds what touches the discs, in place of the faces that were found there, too. What touches an edge or a vertex
