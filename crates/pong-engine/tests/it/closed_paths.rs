@@ -127,7 +127,7 @@ fn check_closed_paths(
     let mut random = Random(31);
     let mut rig = Rig::new(a, b);
     let (mut touched, mut worst_gain, mut worst_loss) = (0, 0.0_f64, 0.0_f64);
-    let (loops, touching) = (long_samples(LOOPS / 3, LOOPS), long_samples(2, 6));
+    let (loops, touching) = (long_samples(LOOPS / 6, LOOPS), long_samples(2, 6));
     for number in 0..LOOPS {
         // A short run ends when enough have touched.
         if number >= loops && touched >= touching {
