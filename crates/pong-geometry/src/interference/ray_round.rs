@@ -62,16 +62,21 @@ pub fn ray_capsule(ray: &Ray, capsule: &Capsule) -> Option<RayHit> {
 }
 
 /// Returns the hit of a ray on a cylinder or a cone. Face 0 is the lateral surface, faces 1 and 2 are the
-/// ends.
+/// ends. A ray through the tip of a cone hits an end.
 pub fn ray_frustum(ray: &Ray, frustum: &Frustum) -> Option<RayHit> {
+    /// Distance from a tip, relative to the lengths that enter, within which a line goes through it.
+    const AT_TIP: f64 = 1e-12;
     let line = Line::near(ray, &(0.5 * (frustum.ends[0] + frustum.ends[1])));
     let (round, between) = (line.in_round(frustum)?, line.between_ends(frustum));
     let inside = round.cut(&between)?;
-    if round.from >= between.from {
+    let goes_up = line.direction.dot(&frustum.axis) > 0.0;
+    // At a tip rounding would choose the side of the wall, so the normal is along the axis.
+    let is_tip = frustum.radii[usize::from(!goes_up)] == 0.0;
+    let slack = if is_tip { AT_TIP * (line.start.amax() + frustum.length) } else { 0.0 };
+    if round.from >= between.from + slack {
         let normal = wall_normal(&line.at(inside.from), frustum);
         return line.hit(ray, &inside, normal, Feature::face(0));
     }
-    let goes_up = line.direction.dot(&frustum.axis) > 0.0;
     let (normal, face) = if goes_up { (-frustum.axis, 1) } else { (frustum.axis, 2) };
     line.hit(ray, &inside, normal, Feature::face(face))
 }
