@@ -107,7 +107,7 @@ pub fn compare(base: &mut Base, twin: &Twin, is_bits: bool, random: &mut Random)
         if is_bits {
             if first.bits != answer.bits {
                 let relative = distance(&first.wrenches, &answer.wrenches, base.scene.size)
-                    / first.largest.max(answer.largest);
+                    / first.largest.max(answer.largest).max(f64::MIN_POSITIVE);
                 return Verdict::Differs(finding(base, twin, frame, relative, answer));
             }
             continue;
