@@ -289,7 +289,9 @@ impl<'a> Frame<'a> {
         let kind_a = self.kind_a(contact);
         let element_b = match context.body_b.element(found.kind_b, found.element_b) {
             // Features are those of the convex solid that the pieces form.
-            PrimitiveRef::Polyhedron(piece) if matches!(kind_a, PrimitiveKind::Cylinder | PrimitiveKind::Cone) => {
+            PrimitiveRef::Polyhedron(piece)
+                if matches!(kind_a, PrimitiveKind::Cylinder | PrimitiveKind::Cone) =>
+            {
                 let item = Item { primitive: found.primitive_b, element: found.element_b };
                 PrimitiveRef::Polyhedron(context.body_b.convex_solid(item).map_or(piece, |(_, solid)| solid))
             }

@@ -103,7 +103,8 @@ impl<'a> Body<'a> {
         let middles = [top - normal.dot(&ends[0]), top - normal.dot(&ends[1])];
         let low = |end: usize| (middles[end] + radii[end] * sine).max(0.0);
         // An apex is one place.
-        let high = |end: usize| if radii[end] > 0.0 { (middles[end] - radii[end] * sine).max(0.0) } else { 0.0 };
+        let high =
+            |end: usize| if radii[end] > 0.0 { (middles[end] - radii[end] * sine).max(0.0) } else { 0.0 };
         let depths = [low(0), low(1), high(0), high(1)];
         let square = |index: usize| depths[index] * depths[index];
         OnPlane { energy: (square(0) + square(1)) + (square(2) + square(3)), depths, level, sine }
@@ -227,7 +228,9 @@ impl<'a> Body<'a> {
             touching(between, &self.vertex(edge.vertices[0]), Feature::edge(index));
         });
         let corners = solid.vertices.iter().map(|vertex| vertex.position).enumerate();
-        for (vertex, corner) in corners.filter(|(_, corner)| is_edge_near && is_within(self.frustum, [corner; 2], reach)) {
+        for (vertex, corner) in
+            corners.filter(|(_, corner)| is_edge_near && is_within(self.frustum, [corner; 2], reach))
+        {
             let meets = |edge: &&PolyhedronEdge| edge.vertices.contains(&(vertex as u32));
             let normals = solid.edges.iter().filter(meets).filter_map(|edge| edge.push);
             let sum = normals.map(|push| push.normals[0] + push.normals[1]).sum::<Vec3>();
@@ -269,7 +272,11 @@ impl<'a> Body<'a> {
             if over > most.0 {
                 // Beyond a flat edge the face goes on.
                 let is_flat = self.polyhedron.edges[rim.edge as usize].push.is_none();
-                let next = if is_flat { Feature::face(rim.neighbor as usize) } else { Feature::edge(rim.edge as usize) };
+                let next = if is_flat {
+                    Feature::face(rim.neighbor as usize)
+                } else {
+                    Feature::edge(rim.edge as usize)
+                };
                 most = (over, Some(next));
             }
         }
@@ -386,7 +393,10 @@ impl<'a> Body<'a> {
                 break;
             }
             let flatter = there.value <= here.value + noise && there.slope_b.norm() < here.slope_b.norm();
-            if there.value < here.value - noise || flatter || part * length <= f64::EPSILON && crossed.is_some() {
+            if there.value < here.value - noise
+                || flatter
+                || part * length <= f64::EPSILON && crossed.is_some()
+            {
                 (stand.normal_b, stand.at, here) = (next, at, there);
                 damping *= 0.1;
                 if let Some(crossed) = crossed {
@@ -473,7 +483,12 @@ fn least_face_of(frustum: &Frustum, polyhedron: &Polyhedron) -> Option<usize> {
 
 /// Returns the next block of faces, from `first` on, along whose normals a body overlaps by less than `reach`, m, and which
 /// faces of it these are.
-fn faces_within(frustum: &Frustum, polyhedron: &Polyhedron, reach: f64, first: usize) -> Option<(usize, LaneBits)> {
+fn faces_within(
+    frustum: &Frustum,
+    polyhedron: &Polyhedron,
+    reach: f64,
+    first: usize,
+) -> Option<(usize, LaneBits)> {
     let within = &(reach, first);
     run_at_level!(next_within(frustum: Frustum, polyhedron: Polyhedron, within: (f64, usize)) -> Option<(usize, LaneBits)>)
 }
