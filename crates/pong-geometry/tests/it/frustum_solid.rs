@@ -206,7 +206,7 @@ fn paths_gain_and_lose_nothing() {
     assert!(touching > long_samples(30, 1500) as usize && beside <= 1 + touching / 50, "{touching} {beside}");
 }
 
-/// What overlaps is pushed, and what is apart is not.
+/// Overlapping bodies are pushed, and others are not.
 #[test]
 fn contacts_are_where_the_two_overlap() {
     let mut random = Random::new(64, 0, 0);
