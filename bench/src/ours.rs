@@ -8,12 +8,12 @@ use pong_geometry::interference::{
     capsule_edge::capsule_edge, ellipsoid_ellipsoid::ellipsoid_ellipsoid, ellipsoid_plane::ellipsoid_plane,
     ellipsoid_polyhedron::ellipsoid_polyhedron, ellipsoid_round::ellipsoid_capsule,
     ellipsoid_round::ellipsoid_frustum, ellipsoid_triangle::ellipsoid_triangle, end_disc::EndDisc,
-    line_segment_plane::line_segment_plane, point_ellipsoid::point_ellipsoid, point_plane::point_plane,
-    point_polyhedron::point_below_face, point_polyhedron::shallowest_face, point_sphere::point_sphere,
-    ray_bore::ray_bore, ray_plane::RayHit, ray_plane::ray_plane, ray_polyhedron::ray_polyhedron,
-    ray_round::ray_capsule, ray_round::ray_ellipsoid, ray_round::ray_frustum, ray_round::ray_sphere,
-    ray_triangle::ray_triangle, round_plane::capsule_plane, round_plane::frustum_plane, side_edge::side_edge,
-    sphere_ellipsoid::sphere_ellipsoid, sphere_plane::sphere_plane,
+    frustum_solid::frustum_solid, line_segment_plane::line_segment_plane, point_ellipsoid::point_ellipsoid,
+    point_plane::point_plane, point_polyhedron::point_below_face, point_polyhedron::shallowest_face,
+    point_sphere::point_sphere, ray_bore::ray_bore, ray_plane::RayHit, ray_plane::ray_plane,
+    ray_polyhedron::ray_polyhedron, ray_round::ray_capsule, ray_round::ray_ellipsoid, ray_round::ray_frustum,
+    ray_round::ray_sphere, ray_triangle::ray_triangle, round_plane::capsule_plane,
+    round_plane::frustum_plane, sphere_ellipsoid::sphere_ellipsoid, sphere_plane::sphere_plane,
     sphere_polyhedron::sphere_inside_polyhedron, sphere_polyhedron::sphere_outside_polyhedron,
     sphere_sphere::sphere_sphere, sphere_triangle::sphere_over_face, sphere_triangle::sphere_triangle,
     sphere_triangle_pairs::SphereTrianglePairs, triangle_features::TriangleContact,
@@ -477,7 +477,7 @@ impl<M: Movers> Pass<'_, M> {
     fn cylinders(self) {
         let (m, b) = (self.movers, self.body);
         match self.kind {
-            Hull => self.each(|i| frustum_on_hull(&m.cylinder(i), &b.polyhedra[0])),
+            Hull => self.each(|i| deepest(frustum_solid(&m.cylinder(i), &b.polyhedra[0]))),
             Triangle => self.each(|i| frustum_on_triangle(&m.cylinder(i), b)),
             Plane => self.each(|i| deepest(frustum_plane(&m.cylinder(i), &b.planes[0]))),
             Cylinder | Cone => self.each(|i| deepest_end(two_frusta(&m.cylinder(i), &b.frusta[0]))),
@@ -490,7 +490,7 @@ impl<M: Movers> Pass<'_, M> {
     fn cones(self) {
         let (m, b) = (self.movers, self.body);
         match self.kind {
-            Hull => self.each(|i| frustum_on_hull(&m.cone(i), &b.polyhedra[0])),
+            Hull => self.each(|i| deepest(frustum_solid(&m.cone(i), &b.polyhedra[0]))),
             Triangle => self.each(|i| frustum_on_triangle(&m.cone(i), b)),
             Plane => self.each(|i| deepest(frustum_plane(&m.cone(i), &b.planes[0]))),
             Cylinder | Cone => self.each(|i| deepest_end(two_frusta(&m.cone(i), &b.frusta[0]))),
@@ -537,25 +537,6 @@ fn capsule_on_triangle(a: &Capsule, b: &MovableGroup) -> Option<Interference> {
     });
     let over = |ball: &Sphere| last(|emit| sphere_triangle(ball, &b.triangles, 0, ball.radius, emit));
     deepest(balls(a).iter().map(over).chain(edges.map(Some)))
-}
-
-fn frustum_on_hull(a: &Frustum, b: &Polyhedron) -> Option<Interference> {
-    if b.faces.iter().any(|face| -a.support(&-face.normal) >= face.offset) {
-        return None;
-    }
-    let disc = |end| {
-        let found = ellipsoid_polyhedron(&a.flat_ellipsoid(end), b)?;
-        EndDisc { frustum: a, end }.exact(&found)
-    };
-    let side = |index: usize| {
-        let edge = &b.edges[index];
-        let push = edge.push.as_ref()?;
-        let ends_b = edge.vertices.map(|vertex| b.vertices[vertex as usize].position);
-        let (normals_b, outwards_b) = (push.normals, Some(push.outwards));
-        let feature = Feature::edge(index);
-        side_edge(a, &ConvexEdge { ends_b, normals_b, outwards_b, free_outward_b: None, feature })
-    };
-    deepest((0..2).map(disc).chain((0..b.edges.len()).map(side)))
 }
 
 fn frustum_on_triangle(a: &Frustum, b: &MovableGroup) -> Option<Interference> {

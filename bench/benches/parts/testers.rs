@@ -50,8 +50,8 @@ fn checked(mover: Mover, target: &Target, ours: &mut Ours) -> Queries {
     let mut answers = vec![Answer::default(); POSES];
     ours.pass(&queries, &mut answers);
     let differing = answers.iter().zip(&queries.hits).filter(|(answer, hit)| answer.hit() != **hit).count();
-    // Cones whose axis has passed an edge are not pushed by it (docs/theory.md, 2.8, limits); of two cones the search for
-    // the plate misses one in thousands.
+    // Of two cones the search for the plate misses one in thousands; cones whose axis has passed an edge of a triangle are
+    // not pushed by it (docs/theory.md, 2.8, limits).
     let most = if mover == Mover::Cone { POSES / 100 } else { 0 };
     assert!(differing <= most, "{mover:?}: {differing} hits and misses are not as made");
     queries

@@ -45,7 +45,15 @@ const LIMITS: &[KnownLimit] = &[
     },
     KnownLimit {
         a: &[Cylinder, Cone],
-        b: &[Polyhedron, Triangle],
+        b: &[Polyhedron],
+        may_show: has_pieces,
+        text: "on pieces of a body that is not convex a side that lies flat over an edge has half of the stiffness, at a disc or at \
+               the edge by the sign of a tilt; a flat end that overhangs steps by ½kδ as its rim passes the edge; keep wheels on \
+               their ground, and axes above edges",
+    },
+    KnownLimit {
+        a: &[Cylinder, Cone],
+        b: &[Triangle],
         may_show: always,
         text: "a side that lies flat over an edge has half of the stiffness, at a disc or at the edge by the sign of a tilt; a flat \
                end that overhangs steps by ½kδ as its rim passes the edge, and feels no corner of a mesh inside its rim; keep \

@@ -286,12 +286,18 @@ impl<'a> Frame<'a> {
         let (context, found) = (self.context, &contact.found);
         let normal = found.normal_b;
         let touch = Touch { normal_b: normal, depth: found.depth, deepest_b: found.deepest_b };
-        let of_b = AtContact::new(
-            context.body_b.element(found.kind_b, found.element_b),
-            found.deepest_b + normal * found.depth,
-            normal,
-        );
         let kind_a = self.kind_a(contact);
+        let element_b = match context.body_b.element(found.kind_b, found.element_b) {
+            // Features are those of the convex solid that the pieces form.
+            PrimitiveRef::Polyhedron(piece)
+                if matches!(kind_a, PrimitiveKind::Cylinder | PrimitiveKind::Cone) =>
+            {
+                let item = Item { primitive: found.primitive_b, element: found.element_b };
+                PrimitiveRef::Polyhedron(context.body_b.convex_solid(item).map_or(piece, |(_, solid)| solid))
+            }
+            other => other,
+        };
+        let of_b = AtContact::new(element_b, found.deepest_b + normal * found.depth, normal);
         let x_ba = &context.motion.x_ba;
         let x_ab = x_ba.inverse();
         let element_a = context.body_a.element(kind_a, found.element_a);

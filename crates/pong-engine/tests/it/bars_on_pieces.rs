@@ -1,14 +1,16 @@
-//! Capsules and segments on a convex solid that is cut into pieces: it acts as the whole (docs/theory.md, 2.8).
+//! Capsules, segments, cylinders and cones on a convex solid that is cut into pieces: it acts as the whole (docs/theory.md, 2.8).
 
 use crate::common::*;
 use pong_geometry::{Quat, Vec3};
 use pong_testkit::Random;
 
 const HALF: [f64; 3] = [0.5, 0.4, 0.3];
-const BARS: [&str; 3] = [
+const BARS: [&str; 5] = [
     "Capsule(name: \"l\", ends: ((-0.9,0,0),(0.9,0.1,0)), radius: 0.1)",
     "Capsule(name: \"l\", ends: ((-0.2,0,0),(0.2,0.1,0)), radius: 0.05)",
     "LineSegment(name: \"l\", ends: ((-0.6,0,0),(0.4,0.1,0)))",
+    "Cylinder(name: \"l\", ends: ((-0.3,0,0),(0.3,0.1,0)), radius: 0.1)",
+    "Cone(name: \"l\", ends: ((-0.1,0,0),(0.1,0.05,0)), radii: (0.2,0.0))",
 ];
 
 fn part(text: &str) -> String {

@@ -170,8 +170,9 @@ fn known_limits_are_noted_by_the_kinds_that_meet() {
         (ball, capsule, vec![]),
         (bar, solid, vec![]),
         (bar, &pieces, vec![(1, "a LineSegment, b Polyhedron")]),
-        (&*pin(1.0), solid, vec![(1, "a Cylinder, b Polyhedron")]),
-        (solid, &cone(0.05), vec![(1, "b Cone, a Polyhedron")]),
+        (&*pin(1.0), solid, vec![]),
+        (&*pin(1.0), &pieces, vec![(1, "a Cylinder, b Polyhedron")]),
+        (&pieces, &cone(0.05), vec![(1, "b Cone, a Polyhedron")]),
         (corner, solid, vec![]),
         // Bodies that stack: corners and a solid on both sides.
         (&cornered, &cornered, vec![(1, "a Point, b Polyhedron"), (1, "b Point, a Polyhedron")]),

@@ -98,6 +98,29 @@ pub(super) struct Local {
     pub size: f64,
 }
 
+impl Local {
+    /// Returns Newton's step in the tangent plane, and the sum of the two curvatures, to which `damping` is added. A function
+    /// that is not convex is curved upward first, so that the step goes downhill.
+    pub(super) fn downhill(&self, normal: &Vec3, damping: f64) -> (Vec3, f64) {
+        let Self { slope_b, bend, less, size, .. } = self;
+        let u = any_perpendicular(normal);
+        let v = normal.cross(&u);
+        let (of_u, of_v) = (bend * u, bend * v);
+        let (uu, uv, vv) = (u.dot(&of_u) - less, u.dot(&of_v), v.dot(&of_v) - less);
+        // Smaller eigenvalue: raised to a positive one where the function is not convex.
+        let least = 0.5 * (uu + vv) - (0.25 * (uu - vv) * (uu - vv) + uv * uv).sqrt();
+        let floor = 1e-6 * size;
+        let raise = damping + if least < floor { floor - least } else { 0.0 };
+        let (uu, vv) = (uu + raise, vv + raise);
+        let (along_u, along_v) = (u.dot(slope_b), v.dot(slope_b));
+        // Both eigenvalues are at least the floor, but the difference of large products may be rounding.
+        let determinant = (uu * vv - uv * uv).max(floor * floor).max(f64::MIN_POSITIVE);
+        let step = u * ((uv * along_v - vv * along_u) / determinant)
+            + v * ((uv * along_u - uu * along_v) / determinant);
+        (step, uu.abs() + vv.abs())
+    }
+}
+
 /// Where a search by Newton's method ends.
 pub(super) struct Limits<'a> {
     /// Most steps.
@@ -125,24 +148,11 @@ pub(super) fn newton(start: &Vec3, limits: Limits<'_>, at: impl Fn(&Vec3) -> Loc
     let (mut normal, mut damping) = (*start, 0.0);
     let mut here = at(&normal);
     for _ in 0..steps {
-        let Local { value, slope_b, bend, less, size } = here;
+        let Local { value, slope_b, size, .. } = here;
         if value <= 0.0 || is_near(known_b, &normal) || slope_b.norm() <= f64::EPSILON * size {
             break;
         }
-        let u = any_perpendicular(&normal);
-        let v = normal.cross(&u);
-        let (of_u, of_v) = (bend * u, bend * v);
-        let (uu, uv, vv) = (u.dot(&of_u) - less, u.dot(&of_v), v.dot(&of_v) - less);
-        // Smaller eigenvalue: raised to a positive one where the function is not convex.
-        let least = 0.5 * (uu + vv) - (0.25 * (uu - vv) * (uu - vv) + uv * uv).sqrt();
-        let floor = 1e-6 * size;
-        let raise = damping + if least < floor { floor - least } else { 0.0 };
-        let (uu, vv) = (uu + raise, vv + raise);
-        let (along_u, along_v) = (u.dot(&slope_b), v.dot(&slope_b));
-        // Both eigenvalues are at least the floor, but the difference of large products may be rounding.
-        let determinant = (uu * vv - uv * uv).max(floor * floor).max(f64::MIN_POSITIVE);
-        let step = u * ((uv * along_v - vv * along_u) / determinant)
-            + v * ((uv * along_u - uu * along_v) / determinant);
+        let (step, curvature) = here.downhill(&normal, damping);
         if -step.dot(&slope_b) < enough * value {
             break;
         }
@@ -161,7 +171,7 @@ pub(super) fn newton(start: &Vec3, limits: Limits<'_>, at: impl Fn(&Vec3) -> Loc
         } else if length <= f64::EPSILON {
             break;
         } else {
-            damping = (4.0 * damping).max(0.1 * (uu.abs() + vv.abs()));
+            damping = (4.0 * damping).max(0.1 * curvature);
         }
     }
     normal

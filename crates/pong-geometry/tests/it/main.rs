@@ -23,6 +23,7 @@ mod exceptions;
 mod features_line_segment;
 mod features_scaling;
 mod features_sphere;
+mod frustum_solid;
 mod lanes;
 mod nearest_on_triangle;
 mod oracle_entry;

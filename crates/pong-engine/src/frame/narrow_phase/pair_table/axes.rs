@@ -14,6 +14,7 @@ use pong_geometry::interference::capsule_edge::{ConvexEdge, capsule_edge};
 use pong_geometry::interference::capsule_polyhedron::CapsuleAtPiece;
 use pong_geometry::interference::ellipsoid_polyhedron::ellipsoid_piece;
 use pong_geometry::interference::end_disc::EndDisc;
+use pong_geometry::interference::frustum_solid::frustum_solid;
 use pong_geometry::interference::line_segment_polyhedron::{AtWall, line_segment_piece};
 use pong_geometry::interference::side_edge::{axis_passes_through, flat_way_out, side_edge, surely_overlaps};
 use pong_geometry::interference::sphere_polyhedron::sphere_inside_polyhedron;
@@ -128,8 +129,8 @@ fn is_way_out(crossing: &Interference, over_face: f64) -> bool {
     crossing.depth <= over_face * (1.0 + SLACK)
 }
 
-/// Adds the contacts of a cylinder or a cone with a piece of a body: those of its end discs, and those of the convex
-/// edges that its side crosses between them.
+/// Adds the contacts of a cylinder or a cone with a piece of a body: those of a convex solid at the places of its rims;
+/// else those of its end discs, and those of the convex edges that its side crosses between them.
 pub(super) fn frustum_polyhedron(
     pair: &ElementPair<'_>,
     a: &TransformedPrimitive,
@@ -137,6 +138,12 @@ pub(super) fn frustum_polyhedron(
 ) {
     let TransformedPrimitive::Frustum(frustum) = a else { wrong_kind(a) };
     let polyhedron = &pair.body_b().polyhedra[pair.item_b.element as usize];
+    if let Some((pair, solid)) = pair.on_solid() {
+        return match pair.is_done(found) {
+            true => (),
+            false => emit_halves(&pair, frustum, frustum_solid(frustum, solid), found),
+        };
+    }
     // Shortest way out over a face.
     let mut over_face = f64::INFINITY;
     for face in &polyhedron.faces {
