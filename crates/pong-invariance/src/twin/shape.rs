@@ -142,7 +142,9 @@ fn cut_by_rule(base: &Base, random: &mut Random, bars: BarsOn) -> Option<Twin> {
 pub fn declared(base: &Base, random: &mut Random) -> Option<Twin> {
     let scene = &base.scene;
     let [Shape::Polyhedron(_)] = scene.bodies[1].shapes.as_slice() else { return None };
-    (!scene.is_of_solids()).then_some(())?;
+    // Cylinders and cones have the earlier rule on declared surfaces.
+    let is_wheel = |shape: &Shape| matches!(shape, Shape::Round(part) if part.kind != RoundKind::Capsule);
+    (!scene.is_of_solids() && !scene.bodies[0].shapes.iter().any(is_wheel)).then_some(())?;
     let mut twin = cut_by_rule(base, random, BarsOn::Pieces)?;
     let body = &mut twin.scene.bodies[1];
     body.is_one_surface = true;
