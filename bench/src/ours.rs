@@ -618,7 +618,7 @@ mod tests {
         let mut kinds = BTreeSet::new();
         for (mover, target) in pairs::all() {
             let mut ours = Ours::new(mover, &target);
-            let queries = Queries::new(256, mover, &target, |x| ours.touches(x));
+            let queries = Queries::new(64, mover, &target, |x| ours.touches(x));
             let mut answers = vec![Answer::default(); queries.hits.len()];
             ours.pass(&queries, &mut answers);
             let differs = |i: &usize| answers[*i].hit() != queries.hits[*i];

@@ -2,7 +2,8 @@
 
 use crate::base::Base;
 use crate::make::path;
-use crate::play::Answer;
+use crate::play::{Answer, Touch};
+use crate::round_part::RoundKind;
 use crate::scene::{Scene, Shape};
 use crate::twin::Twin;
 use pong_geometry::{Vec3, Wrench};
@@ -74,6 +75,37 @@ impl Allowance {
     pub fn exceeded(&self, a: &[Wrench; 2], b: &[Wrench; 2]) -> f64 {
         distance(a, b, self.lever) / self.force
     }
+}
+
+/// Uncertainty of the directions in a frame's contacts with round parts, rad. The lowest place of a flat end is known to
+/// the rounding of directions over the sine between its axis and the normal, the normal between two axes to the rounding
+/// of positions over their distance. What is upright or crosses within rounding has no allowance.
+pub fn of_directions(base: &Base, twin: &Twin, frame: usize) -> f64 {
+    /// Largest uncertainty for which a direction is still known.
+    const KNOWN: f64 = 1e-2;
+    let scene = &base.scene;
+    let (rounding, position) = (ROUNDINGS * f64::EPSILON, ROUNDINGS * Allowance::position(scene, twin));
+    let uncertainty = |touch: &Touch| {
+        let parts = [0, 1].map(|body| scene.bodies[body].shapes.get(touch.of[body] as usize));
+        let upright = [0, 1].map(|body| match parts[body] {
+            Some(Shape::Round(part)) if part.kind != RoundKind::Capsule => {
+                let axis = scene.frames[frame][body].pose().orientation * part.axis();
+                rounding / axis.cross(&touch.normal).norm().max(rounding)
+            }
+            _ => 0.0,
+        });
+        let radius = |part: Option<&Shape>| match part? {
+            Shape::Segment { .. } => Some(0.0),
+            Shape::Round(part) if part.kind == RoundKind::Capsule => Some(part.widest()),
+            _ => None,
+        };
+        let crossing = match parts.map(radius) {
+            [Some(a), Some(b)] => position / (a + b - touch.depth).abs().max(position),
+            _ => 0.0,
+        };
+        upright.into_iter().chain([crossing]).filter(|angle| *angle < KNOWN).fold(0.0, f64::max)
+    };
+    base.answers[frame].contacts.iter().map(uncertainty).fold(0.0, f64::max)
 }
 
 /// Largest coordinate of a group, m.

@@ -1,6 +1,6 @@
 //! Comparison of two answers.
 
-use crate::allowance::{Allowance, distance, thinnest};
+use crate::allowance::{Allowance, distance, of_directions, thinnest};
 use crate::base::Base;
 use crate::jump;
 use crate::play::Answer;
@@ -45,14 +45,16 @@ impl Verdict {
     }
 }
 
-/// Force uncertainty caused by folds. Normal force and friction turn with the normal, and damping acts on
+/// Force uncertainty of directions: between the normals of a fold, and of round parts. Normal force and friction turn with the normal, and damping acts on
 /// another component of the velocity. A bristle remembers the contact plane in which it was stretched.
-fn of_folds(base: &Base, twin: &Twin, answers: &[Answer], largest: f64) -> f64 {
+fn of_turns(base: &Base, twin: &Twin, answers: &[Answer], largest: f64) -> f64 {
     let frame = answers.len() - 1;
     let remembers =
         |body: usize| matches!(base.scene.bodies[body].surface.friction, Friction::Bristle { .. });
     let since = if remembers(0) || remembers(1) { 0 } else { frame };
-    let turned = (since..=frame).map(|frame| turned_by_a_fold(base, twin, frame, &answers[frame]));
+    let turned = (since..=frame).map(|frame| {
+        turned_by_a_fold(base, twin, frame, &answers[frame]).max(of_directions(base, twin, frame))
+    });
     let [a, b] = &base.scene.frames[frame];
     let norm = |v: [f64; 3]| Vec3::from(v).norm();
     let speed = (Vec3::from(a.linear_velocity) - Vec3::from(b.linear_velocity)).norm()
@@ -105,7 +107,7 @@ pub fn compare(base: &mut Base, twin: &Twin, is_bits: bool, random: &mut Random)
         if is_bits {
             if first.bits != answer.bits {
                 let relative = distance(&first.wrenches, &answer.wrenches, base.scene.size)
-                    / first.largest.max(answer.largest);
+                    / first.largest.max(answer.largest).max(f64::MIN_POSITIVE);
                 return Verdict::Differs(finding(base, twin, frame, relative, answer));
             }
             continue;
@@ -114,7 +116,7 @@ pub fn compare(base: &mut Base, twin: &Twin, is_bits: bool, random: &mut Random)
         let mut allowance = Allowance::of(base, twin, largest);
         allowance.force += match base.scene.is_of_solids() {
             true => Allowance::of_solids(base, twin, &answers[..=frame]),
-            false => of_folds(base, twin, &answers[..=frame], largest),
+            false => of_turns(base, twin, &answers[..=frame], largest),
         };
         let read = twin.read(answer, &base.scene, frame);
         if allowance.exceeded(&first.wrenches, &read) > 1.0 {

@@ -3,7 +3,7 @@
 use super::contact::Moving;
 use crate::frame::forces::{bristle_share, share_a_bristle};
 use crate::frame::narrow_phase::candidate::ContactCandidate;
-use crate::frame::narrow_phase::element_pair::BETWEEN_ENDS;
+use crate::frame::narrow_phase::element_pair::{BETWEEN_DISCS, BETWEEN_ENDS};
 use nalgebra::{DMatrix, Matrix3xX, RowVector6};
 use pong_geometry::primitive::PrimitiveKind::{
     self, Capsule, Cone, Cylinder, LineSegment, Polyhedron, Ray, Triangle,
@@ -55,14 +55,15 @@ pub(super) fn weigh(kind_a: PrimitiveKind, contacts: &mut [Moving<'_>]) -> Optio
     // A cylinder has a closed form on what is flat. On edges its side shares with its discs, and the plate between two
     // cylinders with all places.
     let is_on_face = |moving: &Moving<'_>| moving.contact.found.feature.is_face();
-    let is_between = |moving: &Moving<'_>| moving.contact.found.key.end >= BETWEEN_ENDS;
     if matches!(kind_a, Cylinder | Cone)
         && (matches!(kind_b, Cylinder | Cone) || on_flat && !contacts.iter().all(is_on_face))
     {
         return None;
     }
-    // Neither have capsules that yield as one on triangles: their places move with both ends.
-    if kind_a == Capsule && kind_b == Triangle && contacts.iter().any(is_between) {
+    // Neither have bodies that yield as one on triangles: their places move with both ends.
+    let between = if kind_a == Capsule { BETWEEN_ENDS } else { BETWEEN_DISCS };
+    let is_between = |moving: &Moving<'_>| moving.contact.found.key.end >= between;
+    if matches!(kind_a, Capsule | Cylinder | Cone) && kind_b == Triangle && contacts.iter().any(is_between) {
         return None;
     }
     let middle = contacts.partition_point(|moving| moving.contact.found.key.end < BETWEEN_ENDS);

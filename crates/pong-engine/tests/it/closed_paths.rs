@@ -2,6 +2,7 @@
 //! gradient of a stored energy. With memory, free edges or segment ends it may lose energy, never gain.
 
 use crate::common::*;
+use crate::drums_on_triangles::block;
 use pong_geometry::{Quat, Vec3};
 use pong_testkit::{Random, long_samples};
 
@@ -126,7 +127,7 @@ fn check_closed_paths(
     let mut random = Random(31);
     let mut rig = Rig::new(a, b);
     let (mut touched, mut worst_gain, mut worst_loss) = (0, 0.0_f64, 0.0_f64);
-    let (loops, touching) = (long_samples(LOOPS / 3, LOOPS), long_samples(2, 6));
+    let (loops, touching) = (long_samples(LOOPS / 6, LOOPS), long_samples(2, 6));
     for number in 0..LOOPS {
         // A short run ends when enough have touched.
         if number >= loops && touched >= touching {
@@ -407,6 +408,43 @@ fn capsules_on_boxes_and_triangles() {
         ("over a ridge", capsule(0.5), mesh(0.0, 0.4), Vec3::new(0.0, 0.0, 0.06), 0.05, 0.2),
     ] {
         check_closed_paths(name, &rod, &of, (center, size, turn), Allowed::Nothing);
+    }
+}
+
+/// On and past the rim of a plate, lying and tipping, over a ridge along and across it, over an edge and a corner of a block.
+#[test]
+fn drums_on_triangles() {
+    let drum = |half: f64, radii: [f64; 2]| {
+        let ends = format!("ends: ((-{half},0,0),({half},0,0))");
+        model(
+            "drum",
+            &elastic(),
+            &format!("Cone(name: \"l\", {ends}, radii: ({:?},{:?}))", radii[0], radii[1]),
+        )
+    };
+    let plate = plate_mesh("m", 3, 2.0, |x, y| Vec3::new(x, y, 0.0));
+    let ridge = plate_mesh("m", 2, 2.0, |x, y| Vec3::new(x, y, -0.4 * x.abs()));
+    let block = block(1.0, 1.0);
+    let (rod, wheel, plug) = (drum(0.5, [0.1, 0.1]), drum(0.1, [0.25, 0.25]), drum(0.4, [0.15, 0.1]));
+    for (name, drum, ground, center, size, turn) in [
+        ("on a plate", &rod, &plate, Vec3::new(0.1, 0.0, 0.08), 0.04, 0.1),
+        ("over both rims", &drum(1.2, [0.1, 0.1]), &plate, Vec3::new(0.1, 0.0, 0.08), 0.04, 0.03),
+        ("past a rim", &rod, &plate, Vec3::new(1.02, 0.0, 0.09), 0.03, 0.05),
+        ("past a corner", &plug, &plate, Vec3::new(0.95, 0.97, 0.09), 0.04, 0.1),
+        ("wheel past a rim", &wheel, &plate, Vec3::new(0.8, 1.0, 0.22), 0.04, 0.1),
+        ("across a ridge", &rod, &ridge, Vec3::new(0.05, 0.0, 0.08), 0.04, 0.1),
+        ("plug across a ridge", &plug, &ridge, Vec3::new(0.05, 0.0, 0.11), 0.04, 0.1),
+        ("wheel over a ridge", &wheel, &ridge, Vec3::new(0.0, 0.0, 0.23), 0.04, 0.3),
+        ("over an edge of a block", &rod, &block, Vec3::new(0.9, 0.0, 0.09), 0.03, 0.05),
+        ("over a corner of a block", &plug, &block, Vec3::new(0.9, 0.95, 0.13), 0.03, 0.05),
+    ] {
+        check_closed_paths(
+            name,
+            drum,
+            &model("ground", &elastic(), ground),
+            (center, size, turn),
+            Allowed::Nothing,
+        );
     }
 }
 

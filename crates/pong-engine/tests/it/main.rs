@@ -14,6 +14,7 @@ mod continuation;
 mod deep_ellipsoids;
 mod distance;
 mod drops;
+mod drums_on_triangles;
 mod ellipsoids_on_pieces;
 mod exceptions;
 mod extension;

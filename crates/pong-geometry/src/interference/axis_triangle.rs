@@ -89,7 +89,7 @@ pub struct Reached;
 const ROUNDING: f64 = 1e-12;
 /// Sine of the angle by which a normal may be beyond the boundary of the region of an edge, and distance, relative to
 /// the radius, by which a place may be beyond the end of an edge. What is on a boundary is found on both of its sides.
-const REGION_SLACK: f64 = 1e-9;
+pub(super) const REGION_SLACK: f64 = 1e-9;
 /// Square of the sine of an angle between axis and edge, below which they count as parallel.
 const PARALLEL_SQUARE: f64 = 1e-24;
 
@@ -123,9 +123,9 @@ pub fn axis_triangle(
         let length = rest.norm();
         let edge = rest / length;
         let beside = |v: &Vec3| v - edge * edge.dot(v);
-        let arm = axis.start - start;
-        let Some(near) = axis.near(beside(&arm), beside(&axis.along)) else { continue };
-        let on_edge = |along: f64| edge.dot(&(arm + axis.along * along));
+        let arm = axis.start_b - start;
+        let Some(near) = axis.near(beside(&arm), beside(&axis.along_b)) else { continue };
+        let on_edge = |along: f64| edge.dot(&(arm + axis.along_b * along));
         let ends = near.bounds().map(on_edge);
         if ends[0].max(ends[1]) < -axis.beyond || ends[0].min(ends[1]) > length + axis.beyond {
             continue;
@@ -154,7 +154,7 @@ pub fn axis_triangle(
     }
     for corner in (0..3).filter(|&corner| may_push.vertex(corner)) {
         let apex = view.corners[corner];
-        let Some(near) = axis.near(axis.start - apex, axis.along) else { continue };
+        let Some(near) = axis.near(axis.start_b - apex, axis.along_b) else { continue };
         let descends = |to: usize| {
             let edge = apex - view.corners[(corner + to) % 3];
             !near.is_behind(&edge, axis.beyond * edge.norm())
@@ -164,7 +164,7 @@ pub fn axis_triangle(
         }
         let best = near.best_place(axis.radius);
         axis.check(&best)?;
-        let place = axis.start + axis.along * best.along;
+        let place = axis.start_b + axis.along_b * best.along;
         let mut in_front = |face: &TriangleView| face.height(&place) >= least * axis.radius;
         if vertex_pushes(set, triangle, corner, &(place - apex), &mut in_front).is_some() {
             let vertex = set.triangles[triangle as usize].vertices[corner];
@@ -189,28 +189,9 @@ fn over_face(
     heights: [f64; 2],
     visit: &mut dyn FnMut(&AxisPlace),
 ) -> Result<(), Reached> {
-    let mut part = [0.0, 1.0];
-    // Edges at which the part ends.
-    let mut at_edge = [None; 2];
-    for k in 0..3 {
-        let outward = view.outward(k);
-        let (beyond, rate) = (outward.dot(&(axis.start - view.corners[k])), outward.dot(&axis.along));
-        if beyond.max(beyond + rate) <= axis.slack {
-            continue;
-        }
-        if beyond.min(beyond + rate) > axis.slack {
-            return Ok(());
-        }
-        let crossing = (axis.slack - beyond) / divisor(rate);
-        if rate > 0.0 && crossing < part[1] {
-            (part[1], at_edge[1]) = (crossing, Some(k));
-        } else if rate < 0.0 && crossing > part[0] {
-            (part[0], at_edge[0]) = (crossing, Some(k));
-        }
-    }
-    if part[0] > part[1] {
+    let Some((part, at_edge)) = part_over_face(view, (&axis.start_b, &axis.along_b), axis.slack) else {
         return Ok(());
-    }
+    };
     let height_at = |along: f64| heights[0] * (1.0 - along) + heights[1] * along;
     let over = part.map(height_at);
     if over[0].min(over[1]) < -axis.slack {
@@ -227,33 +208,64 @@ fn over_face(
     Ok(())
 }
 
-/// Axis of a capsule.
-struct Axis {
-    start: Vec3,
-    along: Vec3,
-    radius: f64,
-    /// Distance by which rounding may put a place beyond a boundary, m.
+/// Returns the part of a line over a face, given where it starts and the vector to its other end, as fractions of its
+/// length, and the edges at which the part ends. `None` if it is nowhere over the face.
+pub(super) fn part_over_face(
+    view: &TriangleView,
+    (start, along): (&Vec3, &Vec3),
     slack: f64,
+) -> Option<([f64; 2], [Option<usize>; 2])> {
+    let mut part = [0.0, 1.0];
+    let mut at_edge = [None; 2];
+    for k in 0..3 {
+        let outward = view.outward(k);
+        let (beyond, rate) = (outward.dot(&(start - view.corners[k])), outward.dot(along));
+        if beyond.max(beyond + rate) <= slack {
+            continue;
+        }
+        if beyond.min(beyond + rate) > slack {
+            return None;
+        }
+        let crossing = (slack - beyond) / divisor(rate);
+        if rate > 0.0 && crossing < part[1] {
+            (part[1], at_edge[1]) = (crossing, Some(k));
+        } else if rate < 0.0 && crossing > part[0] {
+            (part[0], at_edge[0]) = (crossing, Some(k));
+        }
+    }
+    (part[0] <= part[1]).then_some((part, at_edge))
+}
+
+/// Axis of a capsule, or of a cylinder or cone with its larger radius.
+pub(super) struct Axis {
+    /// End 0, m.
+    pub start_b: Vec3,
+    /// Vector from end 0 to end 1, m.
+    pub along_b: Vec3,
+    /// Radius, m.
+    pub radius: f64,
+    /// Distance by which rounding may put a place beyond a boundary, m.
+    pub slack: f64,
     /// Distance by which a place may be beyond the end of an edge, m.
-    beyond: f64,
+    pub beyond: f64,
 }
 
 impl Axis {
-    fn new(capsule: &Capsule, corner: &Vec3) -> Self {
+    pub fn new(capsule: &Capsule, corner: &Vec3) -> Self {
         let Capsule { ends, radius } = *capsule;
         let slack = ROUNDING * (corner.amax() + ends[0].amax() + ends[1].amax());
-        Self { start: ends[0], along: ends[1] - ends[0], radius, slack, beyond: REGION_SLACK * radius }
+        Self { start_b: ends[0], along_b: ends[1] - ends[0], radius, slack, beyond: REGION_SLACK * radius }
     }
 
     /// Returns the axis beside a vertex or the line of an edge; `None` if it is nowhere less than the radius away. `arm`
     /// leads to end 0, `along` to end 1 from there, both without their parts along the edge.
-    fn near(&self, arm: Vec3, along: Vec3) -> Option<Beside> {
+    pub fn near(&self, arm: Vec3, along: Vec3) -> Option<Beside> {
         let square = along.norm_squared();
-        let is_parallel = square <= PARALLEL_SQUARE * self.along.norm_squared();
+        let is_parallel = square <= PARALLEL_SQUARE * self.along_b.norm_squared();
         let along = if is_parallel { Vec3::zeros() } else { along };
         let (rate, lean) = (along.norm_squared(), arm.dot(&along));
         let nearest = if is_parallel { 0.5 } else { (-lean / rate).clamp(0.0, 1.0) };
-        let near = Beside { arm, along, rate, lean, nearest };
+        let near = Beside { arm_b: arm, along, rate, lean, nearest };
         (near.away(nearest).norm_squared() < self.radius * self.radius).then_some(near)
     }
 
@@ -264,22 +276,23 @@ impl Axis {
 }
 
 /// Axis beside a vertex or the line of an edge.
-struct Beside {
+pub(super) struct Beside {
     /// Way from the vertex or the line to end 0 of the axis, m.
-    arm: Vec3,
+    pub arm_b: Vec3,
     /// Change of that way along the axis, m.
     along: Vec3,
-    /// along·along and arm·along, m².
-    rate: f64,
-    lean: f64,
-    /// Nearest place of the axis.
-    nearest: f64,
+    /// along·along, m².
+    pub rate: f64,
+    /// arm·along, m².
+    pub lean: f64,
+    /// Nearest place of the axis, as a fraction of its length.
+    pub nearest: f64,
 }
 
 impl Beside {
     /// Returns the way from the vertex or the line to a place of the axis.
-    fn away(&self, along: f64) -> Vec3 {
-        self.arm + self.along * along
+    pub fn away(&self, along: f64) -> Vec3 {
+        self.arm_b + self.along * along
     }
 
     /// Returns two places of the axis between which δ²/D is greatest.
@@ -309,7 +322,7 @@ impl Beside {
         let away = self.away(along);
         let distance = away.norm();
         let part = match rate > 0.0 {
-            true => non_positive(rate, lean, self.arm.norm_squared() - radius * radius),
+            true => non_positive(rate, lean, self.arm_b.norm_squared() - radius * radius),
             false => None,
         };
         let [from, to] = part.unwrap_or([0.0, 1.0]);

@@ -43,7 +43,9 @@ impl Circle {
     }
 
     fn rim_toward(&self, direction: &Vec3, least: f64) -> Option<Vec3> {
-        let across = direction - self.axis_b * self.axis_b.dot(direction);
+        // Twice: rounding leaves a part along the axis, which counts beside a small part across.
+        let square = |v: &Vec3| v - self.axis_b * self.axis_b.dot(v);
+        let across = square(&square(direction));
         let length = across.norm();
         // Clamped, so that the divisor is not zero even if a compiler divides before it compares.
         (length > least).then(|| self.center_b + across * (self.radius / length.max(least)))

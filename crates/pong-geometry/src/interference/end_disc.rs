@@ -19,6 +19,18 @@ pub struct EndDisc<'a> {
     pub end: usize,
 }
 
+/// Returns the unit vector across the axis towards the lowest places of the discs, opposite to `normal`; a fixed one
+/// across the axis if the discs stand on the normal up to rounding.
+pub(super) fn down(frustum: &Frustum, normal: &Vec3) -> Vec3 {
+    let level = normal.cross(&frustum.axis);
+    let sine = level.norm();
+    if sine > UPRIGHT {
+        (level / sine.max(f64::MIN_POSITIVE)).cross(&frustum.axis).normalize()
+    } else {
+        crate::any_perpendicular(&frustum.axis)
+    }
+}
+
 /// Sine of an angle between two unit vectors that can come from rounding alone.
 const UPRIGHT: f64 = 16.0 * f64::EPSILON;
 
@@ -35,14 +47,7 @@ impl EndDisc<'_> {
     /// Returns the vector from the centre to the lowest point of the rim, opposite to `normal`, m. If the disc stands on
     /// the normal up to rounding, the direction is a fixed one across it.
     fn lowest(&self, normal: &Vec3) -> Vec3 {
-        let level = normal.cross(&self.frustum.axis);
-        let sine = level.norm();
-        let down = if sine > UPRIGHT {
-            (level / sine.max(f64::MIN_POSITIVE)).cross(&self.frustum.axis).normalize()
-        } else {
-            crate::any_perpendicular(&self.frustum.axis)
-        };
-        down * self.radius()
+        down(self.frustum, normal) * self.radius()
     }
 
     /// Returns the contact of the disc along the normal of the contact of its ellipsoid; `None` if it does not reach.

@@ -46,6 +46,7 @@ pub mod segment_at_walls;
 mod segment_bounds;
 mod segment_ends;
 pub mod side_edge;
+pub mod side_triangle;
 pub mod sphere_ellipsoid;
 pub mod sphere_plane;
 pub mod sphere_polyhedron;

@@ -24,7 +24,8 @@ pub fn ray_plane(ray: &Ray, plane: &Plane) -> Option<RayHit> {
 }
 
 /// Returns the hit of a ray on the front of a plane that lies `rise` (m) from the ray's origin along
-/// `normal`; `None` unless −`reach` < distance < length. `rise` is negative if the origin is in front.
+/// `normal`; `None` unless −`reach` < distance < length. `rise` is negative if the origin is in front. A `normal` of
+/// another length than 1 has to have the `rise` times this length.
 #[inline]
 pub(super) fn hit_plane(ray: &Ray, normal: &Vec3, rise: f64, reach: f64, feature: Feature) -> Option<RayHit> {
     let closing = ray.direction.dot(normal);

@@ -7,7 +7,6 @@
 
 use super::Feature;
 use super::ray_plane::RayHit;
-use super::round_surface::nearest_on_segment;
 use crate::primitive::{Capsule, Ellipsoid, Frustum, Ray, Sphere};
 use crate::{Vec3, any_perpendicular};
 
@@ -32,42 +31,61 @@ pub fn ray_ellipsoid(ray: &Ray, ellipsoid: &Ellipsoid) -> Option<RayHit> {
     line.hit(ray, &inside, normal, Feature::WHOLE)
 }
 
-/// Returns the hit of a ray on a capsule: on the lateral surface or one of the end spheres, whichever comes
-/// first.
+/// Returns the hit of a ray on a capsule. The line enters and leaves by the lateral surface where that is between the two
+/// ends, and otherwise by the sphere of that end.
 pub fn ray_capsule(ray: &Ray, capsule: &Capsule) -> Option<RayHit> {
-    let [one, other] = capsule.ends;
+    let Capsule { ends: [one, other], radius } = *capsule;
     let line = Line::near(ray, &(0.5 * (one + other)));
-    let wall = Frustum::new(capsule.ends, [capsule.radius; 2]);
-    let inside = [
-        line.in_round(&wall).and_then(|inside| inside.cut(&line.between_ends(&wall))),
-        line.in_ball(&one, capsule.radius),
-        line.in_ball(&other, capsule.radius),
-    ];
-    let inside = inside.into_iter().flatten().reduce(|all, part| all.with(&part))?;
-    let place = line.at(inside.from);
-    let normal = (place - nearest_on_segment(&place, &capsule.ends)).normalize();
-    line.hit(ray, &inside, normal, Feature::WHOLE)
+    let (axis, arm) = (other - one, line.start - one);
+    let square = axis.norm_squared();
+    // Distances from the axis and heights above end 0, both times the length of the axis.
+    let (across, sideways) = (axis.cross(&arm), axis.cross(&line.direction));
+    let (height, climb) = (axis.dot(&arm), axis.dot(&line.direction));
+    let (a, b) = (sideways.norm_squared(), across.dot(&sideways));
+    let c = across.norm_squared() - square * radius * radius;
+    let root = b * b - a * c;
+    let wall = match a > 0.0 {
+        true if root > 0.0 => roots(a, b, c, root),
+        false if c < 0.0 => Inside { from: f64::NEG_INFINITY, to: f64::INFINITY },
+        _ => return None,
+    };
+    let height_at = |along: f64| height + climb * along;
+    let by_ball = |along: f64| {
+        let height = height_at(along);
+        let end = if height > square { other } else { one };
+        (!(0.0..=square).contains(&height)).then(|| line.in_ball(&end, radius))
+    };
+    let from = by_ball(wall.from).map_or(Some(wall.from), |ball| Some(ball?.from))?;
+    let to = by_ball(wall.to).map_or(Some(wall.to), |ball| Some(ball?.to))?;
+    let foot = one + axis * (height_at(from) / square).clamp(0.0, 1.0);
+    line.hit(ray, &Inside { from, to }, (line.at(from) - foot).normalize(), Feature::WHOLE)
 }
 
 /// Returns the hit of a ray on a cylinder or a cone. Face 0 is the lateral surface, faces 1 and 2 are the
-/// ends.
+/// ends. A ray through the tip of a cone hits an end.
 pub fn ray_frustum(ray: &Ray, frustum: &Frustum) -> Option<RayHit> {
+    /// Distance from a tip, relative to the lengths that enter, within which a line goes through it.
+    const AT_TIP: f64 = 1e-12;
     let line = Line::near(ray, &(0.5 * (frustum.ends[0] + frustum.ends[1])));
     let (round, between) = (line.in_round(frustum)?, line.between_ends(frustum));
     let inside = round.cut(&between)?;
-    if round.from >= between.from {
+    let goes_up = line.direction.dot(&frustum.axis) > 0.0;
+    // At a tip rounding would choose the side of the wall, so the normal is along the axis.
+    let is_tip = frustum.radii[usize::from(!goes_up)] == 0.0;
+    let slack = if is_tip { AT_TIP * (line.start.amax() + frustum.length) } else { 0.0 };
+    if round.from >= between.from + slack {
         let normal = wall_normal(&line.at(inside.from), frustum);
         return line.hit(ray, &inside, normal, Feature::face(0));
     }
-    let goes_up = line.direction.dot(&frustum.axis) > 0.0;
     let (normal, face) = if goes_up { (-frustum.axis, 1) } else { (frustum.axis, 2) };
     line.hit(ray, &inside, normal, Feature::face(face))
 }
 
 /// Returns the outward unit normal at a point of the lateral surface.
 fn wall_normal(place: &Vec3, frustum: &Frustum) -> Vec3 {
-    let arm = place - frustum.ends[0];
-    let across = arm - frustum.axis * frustum.axis.dot(&arm);
+    // Twice: beside a tip rounding leaves a part along the axis that counts.
+    let square = |v: &Vec3| v - frustum.axis * frustum.axis.dot(v);
+    let across = square(&square(&(place - frustum.ends[0])));
     let aside = across.norm();
     let away =
         if aside > 0.0 { across / aside.max(f64::MIN_POSITIVE) } else { any_perpendicular(&frustum.axis) };
@@ -87,11 +105,6 @@ impl Inside {
     fn cut(&self, other: &Self) -> Option<Self> {
         let (from, to) = (self.from.max(other.from), self.to.min(other.to));
         (from < to).then_some(Self { from, to })
-    }
-
-    /// Returns the union of two overlapping intervals of one convex solid.
-    fn with(&self, other: &Self) -> Self {
-        Self { from: self.from.min(other.from), to: self.to.max(other.to) }
     }
 }
 
@@ -149,10 +162,20 @@ impl Line {
     fn in_round(&self, frustum: &Frustum) -> Option<Inside> {
         let [first, last] = frustum.radii;
         let widening = (last - first) / frustum.length;
-        let arm = self.start - frustum.ends[0];
+        // From the place nearest to a tip: elsewhere the terms of a line close to it cancel.
+        let (base, radius) = if last == 0.0 { (1, last) } else { (0, first) };
+        let from_start = self.start - frustum.ends[base];
+        let ahead = if radius == 0.0 { -self.direction.dot(&from_start) } else { 0.0 };
+        let inside = self.in_wall(&(from_start + self.direction * ahead), frustum, radius, widening)?;
+        Some(Inside { from: inside.from + ahead, to: inside.to + ahead })
+    }
+
+    /// Returns the same interval, measured from the place at `arm` from a point of the axis. `radius` is that of the wall
+    /// beside this point, and `widening` its change along the axis.
+    fn in_wall(&self, arm: &Vec3, frustum: &Frustum, radius: f64, widening: f64) -> Option<Inside> {
         let (height, climb) = (arm.dot(&frustum.axis), self.direction.dot(&frustum.axis));
         let (across, sideways) = (arm - frustum.axis * height, self.direction - frustum.axis * climb);
-        let (radius, opening) = (first + widening * height, widening * climb);
+        let (radius, opening) = (radius + widening * height, widening * climb);
         let a = sideways.norm_squared() - opening * opening;
         let b = across.dot(&sideways) - radius * opening;
         let c = across.norm_squared() - radius * radius;

@@ -12,7 +12,6 @@
 
 use super::Feature;
 use super::ray_plane::{RayHit, hit_plane};
-use super::triangle_features::TriangleView;
 use crate::Vec3;
 use crate::primitive::{Ray, TriangleSet};
 
@@ -35,9 +34,11 @@ fn hit_corners(ray: &Ray, corners: [Vec3; 3], triangle: u32, reach: f64) -> Opti
     if !passes_inside(ray, &corners) {
         return None;
     }
-    let normal = (corners[1] - corners[0]).cross(&(corners[2] - corners[0])).normalize();
-    let view = TriangleView { index: triangle, corners, normal };
-    hit_plane(ray, &view.normal, -view.height(&ray.origin), reach, Feature::face(triangle as usize))
+    // The normal is normalised last, beside the division that finds the distance.
+    let normal = (corners[1] - corners[0]).cross(&(corners[2] - corners[0]));
+    let rise = normal.dot(&(corners[0] - ray.origin));
+    let hit = hit_plane(ray, &normal, rise, reach, Feature::face(triangle as usize))?;
+    Some(RayHit { normal_b: normal.normalize(), ..hit })
 }
 
 /// Returns `true` if the three corners run counter-clockwise around the ray, seen along it: the ray passes

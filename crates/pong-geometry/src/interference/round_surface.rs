@@ -112,14 +112,15 @@ pub(crate) fn of_frustum_within(place: &Vec3, frustum: &Frustum, reach: f64) -> 
     if highest > reach + SLACK * (along.abs() + aside + first + frustum.length) {
         return None;
     }
-    let at = Meridian::of_parts(place, frustum, &parts);
-    let in_space = |(along, aside): (f64, f64), size: f64| match (along == 0.0, aside == 0.0) {
-        (true, _) => at.away_b * (aside / size),
-        (_, true) => frustum.axis * (along / size),
+    let meridian = || Meridian::of_parts(place, frustum, &parts);
+    // The normal of a side.
+    let normal = |side: usize| match side {
+        0 if wall_along == 0.0 => meridian().away_b,
         // Near the axis the two directions are perpendicular only to rounding.
-        _ => (frustum.axis * along + at.away_b * aside).normalize(),
+        0 => (frustum.axis * wall_along + meridian().away_b * wall_aside).normalize(),
+        1 => -frustum.axis,
+        _ => frustum.axis,
     };
-    let normals = [(wall_along, wall_aside), (-1.0, 0.0), (1.0, 0.0)];
     if heights.iter().all(|&height| height <= 0.0) {
         let mut least = 0;
         for side in [1, 2] {
@@ -127,10 +128,41 @@ pub(crate) fn of_frustum_within(place: &Vec3, frustum: &Frustum, reach: f64) -> 
                 least = side;
             }
         }
-        let normal_b = in_space(normals[least], 1.0);
-        return Some(Nearest { distance: heights[least], normal_b, feature: Feature::face(least) });
+        let (distance, normal_b) = (heights[least], normal(least));
+        return Some(Nearest { distance, normal_b, feature: Feature::face(least) });
     }
-    let feet = [on_wall(&at, frustum), (0.0, at.aside.min(first)), (frustum.length, at.aside.min(last))];
+    let at = meridian();
+    let (foot, nearest) = foot(&at, frustum, &heights);
+    let (along, aside) = (at.along - foot.0, at.aside - foot.1);
+    let distance = (along * along + aside * aside).sqrt();
+    let scale = at.along.abs().max(at.aside).max(frustum.length);
+    // Clamped, so that the divisor is not zero even if a compiler divides before the branch.
+    let size = distance.max(f64::MIN_POSITIVE);
+    let normal_b = match (along == 0.0, aside == 0.0) {
+        _ if distance <= ROUNDING * scale => normal(nearest),
+        (true, _) => at.away_b * (aside / size),
+        (_, true) => frustum.axis * (along / size),
+        _ => (frustum.axis * along + at.away_b * aside).normalize(),
+    };
+    let feature = match foot {
+        (0.0, aside) if aside == first => Feature::edge(0),
+        (along, aside) if along == frustum.length && aside == last => Feature::edge(1),
+        _ => Feature::face(nearest),
+    };
+    Some(Nearest { distance, normal_b, feature })
+}
+
+/// Returns the point of the trapezoid nearest to `at` outside, in the coordinates of [`Meridian`], and the side that it is
+/// on: 0 the wall, 1 and 2 the ends. `heights` are those of `at` above the sides.
+#[inline]
+fn foot(at: &Meridian, frustum: &Frustum, heights: &[f64; 3]) -> ((f64, f64), usize) {
+    let ([first, last], length) = (frustum.radii, frustum.length);
+    if first == last {
+        // A rectangle.
+        let side = if at.aside > first { 0 } else { 1 + usize::from(at.along > 0.0) };
+        return ((at.along.clamp(0.0, length), at.aside.min(first)), side);
+    }
+    let feet = [on_wall(at, frustum), (0.0, at.aside.min(first)), (length, at.aside.min(last))];
     let square = |side: usize| {
         let (along, aside) = (at.along - feet[side].0, at.aside - feet[side].1);
         along * along + aside * aside
@@ -138,17 +170,7 @@ pub(crate) fn of_frustum_within(place: &Vec3, frustum: &Frustum, reach: f64) -> 
     let visible = (0..3).filter(|&side| heights[side] > 0.0);
     let nearest =
         visible.reduce(|best, side| if square(side) < square(best) { side } else { best }).unwrap_or(0);
-    let (along, aside) = (at.along - feet[nearest].0, at.aside - feet[nearest].1);
-    let distance = square(nearest).sqrt();
-    let scale = at.along.abs().max(at.aside).max(frustum.length);
-    let (away, size) =
-        if distance > ROUNDING * scale { ((along, aside), distance) } else { (normals[nearest], 1.0) };
-    let feature = match feet[nearest] {
-        (0.0, aside) if aside == first => Feature::edge(0),
-        (along, aside) if along == frustum.length && aside == last => Feature::edge(1),
-        _ => Feature::face(nearest),
-    };
-    Some(Nearest { distance, normal_b: in_space(away, size), feature })
+    (feet[nearest], nearest)
 }
 
 /// Returns the point of the lateral surface nearest to `at`, in the coordinates of [`Meridian`]: distance

@@ -286,6 +286,37 @@ fn rays_from_far_away_keep_their_digits() {
     }
 }
 
+/// A line through the tip of a cone, or past it by less than rounding, enters there.
+#[test]
+fn a_line_through_a_tip_enters_at_the_tip() {
+    let mut random = Random::new(25, 0, 0);
+    for index in 0..2000 {
+        let (tip, way) = (random.direction() * random.between(0.0, 2.0), random.direction());
+        let (length, radius) = (random.between(0.05, 1.5), random.between(0.01, 0.7));
+        let base = tip + way * length;
+        let cone = match index % 2 {
+            0 => Frustum::new([tip, base], [0.0, radius]),
+            _ => Frustum::new([base, tip], [radius, 0.0]),
+        };
+        // Within the cone behind the tip.
+        let aside = way.cross(&random.direction()) * (0.8 * radius / length);
+        let direction = (way + aside).normalize();
+        let past = direction.cross(&random.direction()) * random.log_between(1e-18, 1e-12);
+        let ray = Ray {
+            origin: tip + past - direction,
+            direction,
+            length: 2.0,
+            reach: None,
+            response: RayResponse::Normal,
+        };
+        let hit = ray_frustum(&ray, &cone).expect("through the tip");
+        let steep = length / radius + radius / length;
+        assert!((hit.distance - 1.0).abs() < (2e-15 + 20.0 * past.norm()) * steep, "{}", hit.distance - 1.0);
+        let is_upright = (hit.normal_b + way).norm() < 1e-12;
+        assert!(is_upright || past.norm() > 1e-16, "{:?} {:e}", hit.normal_b, past.norm());
+    }
+}
+
 #[test]
 fn prisms_of_many_sides_come_closer_as_the_square_of_their_number() {
     let mut random = Random::new(24, 0, 0);

@@ -355,6 +355,24 @@ fn a_pin_touches_in_two_places_exactly_when_its_tilt_takes_up_the_clearance() {
 
 /// A coaxial pin with clearance touches nothing; if too large it is loaded on opposite sides without a net
 /// force. Off the axis or slightly tilted, the wrench grows continuously from zero, in every direction.
+/// A pin that is too large leaves a hole by the way of its lowest place along the hole, to rounding, however small its
+/// tilt.
+#[test]
+fn a_pin_that_leaves_a_hole_is_as_deep_as_its_lowest_place() {
+    let mut random = Random::new(7, 0, 0);
+    for _ in 0..500 {
+        let (tilt, toward) = (random.log_between(1e-11, 1e-3), random.between(0.0, TAU));
+        let (radius, inside) = (random.between(0.06, 0.1), random.log_between(1e-4, 1e-3));
+        let pin = pin_in_hole(2.0 * radius, 0.2, tilt, toward);
+        let to_mouth = Vec3::z() * (0.5 - inside) - pin.ends[0];
+        let turn = random_motion(&mut random, 0.5);
+        let placed = pin.moved(|place| turn.point(&(place + to_mouth)));
+        let hole = carried(&straight_hole(0.1, 1.0), &turn);
+        let depth = deepest(&placed.touch(&hole)[0]);
+        assert!((depth - (inside + radius * tilt.sin())).abs() < 2e-15, "{tilt:e}: {depth} {inside}");
+    }
+}
+
 #[test]
 fn a_pin_that_is_too_large_is_held_in_the_middle() {
     let bore = straight_hole(0.1, 0.2);

@@ -47,7 +47,7 @@ pub(crate) fn assign_weights(
     scratch: &mut Arena,
 ) -> Result<(), Full> {
     if let [alone] = &mut found[..]
-        && !is_under_capsule(alone)
+        && !is_between_ends(alone)
         && !(kind_a == PrimitiveKind::LineSegment && is_joint(alone, context))
     {
         // A single candidate keeps the weight that its tester gave. If it is `BeyondWall`, B has no piece on
@@ -148,27 +148,28 @@ fn share_bars(
                 outcome = outcome.and(find_shares(end, &context.body_b.triangles, shared_contacts, scratch));
             }
         }
-        if kind_of_end == PrimitiveKind::Sphere {
-            if !joint && axes::yields_as_one(ends, middle) {
-                let mut added = axes::Added::default();
-                let shared = match room >= added.len() {
-                    true => axes::share(context, (&mut *ends, &mut *middle), &mut added, scratch),
-                    false => Err(Full { asked: 0, free: 0, capacity: 0 }),
-                };
-                let is_shared = matches!(shared, Ok(true));
-                outcome = outcome.and(shared.map(|_| ()));
-                if is_shared {
-                    drop_idle(ends);
-                    for contact in added.into_iter().flatten() {
-                        found.push(contact)?;
-                    }
-                    continue;
+        let touch = axes::Touch::new(ends, middle, kind_of_end == PrimitiveKind::Ellipsoid);
+        if !joint && touch != axes::Touch::Apart {
+            let mut added = axes::Added::default();
+            let shared = match room >= added.len() {
+                true => axes::share(context, touch, (&mut *ends, &mut *middle), &mut added, scratch),
+                false => Err(Full { asked: 0, free: 0, capacity: 0 }),
+            };
+            let is_shared = matches!(shared, Ok(true));
+            outcome = outcome.and(shared.map(|_| ()));
+            if is_shared {
+                drop_idle(ends);
+                for contact in added.into_iter().flatten() {
+                    found.push(contact)?;
                 }
+                continue;
             }
-            // A stand-in only tells that an edge is beside the axis.
-            let beside = middle.iter_mut().filter(|contact| contact.status == CandidateStatus::StandIn);
-            beside.for_each(|contact| contact.status = CandidateStatus::Culled);
         }
+        // On triangles a stand-in only tells that an edge is beside the axis.
+        let tells = |contact: &&mut ContactCandidate| {
+            contact.status == CandidateStatus::StandIn && contact.kind_b == PrimitiveKind::Triangle
+        };
+        middle.iter_mut().filter(tells).for_each(|contact| contact.status = CandidateStatus::Culled);
         if !middle.is_empty() {
             let two = ends.partition_point(|end| end.key.end < 2);
             couple(&mut ends[..two], middle);
@@ -184,9 +185,9 @@ fn share_bars(
     outcome
 }
 
-/// Returns true for a contact of a capsule's axis with an edge, between the capsule's end spheres.
-fn is_under_capsule(contact: &ContactCandidate) -> bool {
-    contact.shares && contact.half && contact.key.end == BETWEEN_ENDS
+/// Returns true for a contact between the ends of a capsule, a cylinder or a cone with an edge.
+fn is_between_ends(contact: &ContactCandidate) -> bool {
+    contact.shares && contact.half && contact.key.end >= BETWEEN_ENDS
 }
 
 /// Runs passes 4 to 6 of the table in `status.rs` on the contacts of one key.

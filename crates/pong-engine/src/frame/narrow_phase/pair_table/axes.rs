@@ -101,9 +101,7 @@ pub(super) fn capsule_triangle(
     for ball in Ball::at_ends(&end_spheres(capsule)) {
         ball_on_triangle(pair, &ball, false, found);
     }
-    let (set, triangle) = (&pair.body_b().triangles, pair.item_b.element);
-    let may_push = set.triangles[triangle as usize].may_push;
-    if !(0..3).any(|k| may_push.edge(k)) || AxisLine::new(capsule).misses(&set.corners(triangle)) {
+    if !has_edges_beside(pair, capsule) {
         return;
     }
     let mut is_told = false;
@@ -111,15 +109,8 @@ pub(super) fn capsule_triangle(
         if let Some(crossing) = capsule_edge(capsule, edge) {
             is_told = true;
             pair.between(BETWEEN_ENDS, &crossing, CandidateStatus::Front, found);
-        } else if !is_told && is_beside_edge(capsule, edge) {
-            is_told = true;
-            let beside = Interference {
-                depth: capsule.radius,
-                normal_b: edge.normals_b[0],
-                deepest_b: edge.ends_b[0],
-                feature: edge.feature,
-            };
-            pair.between(BETWEEN_ENDS, &beside, CandidateStatus::StandIn, found);
+        } else {
+            is_told = is_told || tell_beside(pair, (capsule, edge), BETWEEN_ENDS, found);
         }
     });
 }
@@ -235,7 +226,7 @@ fn push_sunk_side(
 }
 
 /// Adds the contacts of a cylinder or a cone with a triangle: those of its end discs, and those of the convex and
-/// free edges that its side crosses.
+/// free edges that its side crosses. An edge beside the axis that the side does not cross gives a `StandIn`.
 pub(super) fn frustum_triangle(
     pair: &ElementPair<'_>,
     a: &TransformedPrimitive,
@@ -259,7 +250,12 @@ pub(super) fn frustum_triangle(
             on_triangle(pair, &center(end + 2), highest, found);
         }
     }
+    let around = Capsule { ends: frustum.ends, radius: frustum.radii[0].max(frustum.radii[1]) };
+    if !has_edges_beside(pair, &around) {
+        return;
+    }
     let side = side_of(frustum);
+    let mut is_told = false;
     each_edge_of_triangle(pair, |edge| {
         let crossing = match &side {
             Some(side) => capsule_edge(side, edge),
@@ -268,9 +264,40 @@ pub(super) fn frustum_triangle(
         let over_face =
             edge.normals_b.iter().map(|normal| frustum.support(&-normal) + normal.dot(&edge.ends_b[0]));
         let over_face = over_face.fold(f64::INFINITY, f64::min);
-        let pushes = crossing.iter().filter(|crossing| is_way_out(crossing, over_face));
-        pushes.for_each(|crossing| pair.between(BETWEEN_DISCS, crossing, CandidateStatus::Front, found));
+        if let Some(crossing) = crossing.filter(|crossing| is_way_out(crossing, over_face)) {
+            is_told = true;
+            pair.between(BETWEEN_DISCS, &crossing, CandidateStatus::Front, found);
+        } else {
+            is_told = is_told || tell_beside(pair, (&around, edge), BETWEEN_DISCS, found);
+        }
     });
+}
+
+/// Returns `false` if no edge of a triangle that pushes is less than the radius away from the line of a capsule's axis.
+fn has_edges_beside(pair: &ElementPair<'_>, capsule: &Capsule) -> bool {
+    let (set, triangle) = (&pair.body_b().triangles, pair.item_b.element);
+    let may_push = set.triangles[triangle as usize].may_push;
+    (0..3).any(|k| may_push.edge(k)) && !AxisLine::new(capsule).misses(&set.corners(triangle))
+}
+
+/// Adds a `StandIn` if an edge is beside the axis of a capsule, and returns true then.
+fn tell_beside(
+    pair: &ElementPair<'_>,
+    (capsule, edge): (&Capsule, &ConvexEdge),
+    part: u32,
+    found: &mut ChunkCandidates<'_>,
+) -> bool {
+    let is_beside = is_beside_edge(capsule, edge);
+    if is_beside {
+        let beside = Interference {
+            depth: capsule.radius,
+            normal_b: edge.normals_b[0],
+            deepest_b: edge.ends_b[0],
+            feature: edge.feature,
+        };
+        pair.between(part, &beside, CandidateStatus::StandIn, found);
+    }
+    is_beside
 }
 
 /// Calls `visit` with the convex and free edges of a triangle that push.
