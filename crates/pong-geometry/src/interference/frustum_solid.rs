@@ -308,6 +308,13 @@ impl<'a> Body<'a> {
             let step = if bend > 0.0 { -slope / bend.max(f64::MIN_POSITIVE) } else { downhill };
             let step = step.clamp(-FARTHEST, FARTHEST);
             let mut next = (stand.normal_b + toward(&stand.normal_b) * step).normalize();
+            // Newton's next step from here would be rounding.
+            let is_between =
+                toward(&push.normals[0]).dot(&next) > 0.0 && toward(&push.normals[1]).dot(&next) < 0.0;
+            if is_between && bend > 0.0 && step.abs() * size <= CLOSE * stand.at.energy {
+                (stand.normal_b, stand.at) = (next, self.on_plane(&next, next.dot(&point)));
+                break;
+            }
             let is_short = toward(&beyond).dot(&next) * way < 0.0;
             let is_at_end = !is_short && !is_known && !halves;
             if is_at_end {
@@ -319,11 +326,6 @@ impl<'a> Body<'a> {
                 break;
             }
             let at = self.on_plane(&next, next.dot(&point));
-            // Newton's next step from here would be rounding.
-            if is_short && bend > 0.0 && !halves && step.abs() * size <= CLOSE * stand.at.energy {
-                (stand.normal_b, stand.at) = (next, at);
-                break;
-            }
             let there = turned(&next, &at);
             let is_lower = at.energy <= stand.at.energy + ROUNDING * size;
             let falls = there.0 * way < 0.0;
