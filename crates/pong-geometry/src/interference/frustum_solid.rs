@@ -199,10 +199,14 @@ impl<'a> Body<'a> {
     /// F is at least D², with D the overlap of A and B along n. The feature of a minimum lies on the line of the load, D or
     /// less from it. So with one plane known, only faces with D² < F and features within √F of A count.
     fn least(&self) -> Option<Stand> {
+        /// Depth, relative to the smaller of radius and length.
+        const DEEP: f64 = 0.1;
         let solid = self.polyhedron;
         let first = least_face_of(self.frustum, solid)?;
         let mut best = self.descend(self.on_face(first), None);
         let reach = best.at.energy.sqrt();
+        let radius = self.frustum.radii[0].max(self.frustum.radii[1]);
+        let is_deep = reach > DEEP * radius.min(self.frustum.length);
         let mut offer = |start: Stand| {
             let found = self.descend(start, Some(Feature::face(first)));
             if found.at.energy < best.at.energy * TIE {
@@ -224,8 +228,11 @@ impl<'a> Body<'a> {
             let edge = &solid.edges[index];
             let Some(push) = &edge.push else { return };
             is_edge_near = true;
-            let between = (push.normals[0] + push.normals[1]).normalize();
-            touching(between, &self.vertex(edge.vertices[0]), Feature::edge(index));
+            // Of an edge that is deep in A there may be two minima.
+            for &share in if is_deep { &[0.5, 0.25, 0.75][..] } else { &[0.5][..] } {
+                let between = push.normals[0].lerp(&push.normals[1], share).normalize();
+                touching(between, &self.vertex(edge.vertices[0]), Feature::edge(index));
+            }
         });
         let corners = solid.vertices.iter().map(|vertex| vertex.position).enumerate();
         for (vertex, corner) in
