@@ -16,7 +16,7 @@
 //!
 //! A walk from feature to feature, on which F falls, ends at one of these.
 
-use super::least_translation::Local;
+use super::least_translation::{Local, lattice};
 use super::{Feature, FeatureKind, Interference};
 use crate::distance::Solid;
 use crate::primitive::{EightBoxes, Frustum, PlaneBlock, Polyhedron, PolyhedronEdge};
@@ -199,8 +199,8 @@ impl<'a> Body<'a> {
     /// F is at least D², with D the overlap of A and B along n. The feature of a minimum lies on the line of the load, D or
     /// less from it. So with one plane known, only faces with D² < F and features within √F of A count.
     fn least(&self) -> Option<Stand> {
-        /// Depth, relative to the smaller of radius and length.
-        const DEEP: f64 = 0.1;
+        /// Depth, relative to the smaller of radius and length, above which minima lie close together: walks start everywhere.
+        const DEEP: f64 = 0.02;
         let solid = self.polyhedron;
         let first = least_face_of(self.frustum, solid)?;
         let mut best = self.descend(self.on_face(first), None);
@@ -228,7 +228,7 @@ impl<'a> Body<'a> {
             let edge = &solid.edges[index];
             let Some(push) = &edge.push else { return };
             is_edge_near = true;
-            // Of an edge that is deep in A there may be two minima.
+            // Of an edge that is deep in A there may be two minima, as of a vertex.
             for &share in if is_deep { &[0.5, 0.25, 0.75][..] } else { &[0.5][..] } {
                 let between = push.normals[0].lerp(&push.normals[1], share).normalize();
                 touching(between, &self.vertex(edge.vertices[0]), Feature::edge(index));
@@ -240,9 +240,23 @@ impl<'a> Body<'a> {
         {
             let meets = |edge: &&PolyhedronEdge| edge.vertices.contains(&(vertex as u32));
             let normals = solid.edges.iter().filter(meets).filter_map(|edge| edge.push);
-            let sum = normals.map(|push| push.normals[0] + push.normals[1]).sum::<Vec3>();
+            let normals = normals.map(|push| (push.normals[0] + push.normals[1]).normalize());
+            let sum = normals.clone().sum::<Vec3>();
             if let Some(between) = sum.try_normalize(f64::MIN_POSITIVE) {
                 touching(between, &corner, Feature::vertex(vertex));
+                for normal in normals.filter(|_| is_deep) {
+                    touching((between + normal).normalize(), &corner, Feature::vertex(vertex));
+                }
+            }
+        }
+        if is_deep {
+            let axis = self.frustum.axis;
+            let across = any_perpendicular(&axis);
+            for normal in lattice([axis, across, axis.cross(&across)]) {
+                let heights = solid.vertices.iter().map(|vertex| normal.dot(&vertex.position)).enumerate();
+                let farthest = heights.reduce(|a, b| if b.1 > a.1 { b } else { a });
+                let Some((vertex, _)) = farthest else { break };
+                touching(normal, &self.vertex(vertex as u32), Feature::vertex(vertex));
             }
         }
         (best.at.energy > 0.0).then_some(best)

@@ -181,7 +181,7 @@ fn the_wrench_is_minus_the_derivative_of_the_energy() {
 }
 
 /// Along random paths, into the solids and through them included, the work of the wrench is the energy that is stored
-/// less: none appears or vanishes, but for one path in a hundred at most.
+/// less: none appears or vanishes, but for one path in a thousand at most.
 #[test]
 fn paths_gain_and_lose_nothing() {
     let mut random = Random::new(63, 0, 0);
@@ -199,13 +199,16 @@ fn paths_gain_and_lose_nothing() {
         };
         let Some(gained) = gained(|s| energy_of(&at(s)), power, 1e-4) else { continue };
         // Deep in, one of two minima that lie close together may be missed.
-        assert!(gained < 0.1, "case {case}: {gained:e} of the largest stored {a:?}");
+        assert!(gained < 1e-3, "case {case}: {gained:e} of the largest stored {a:?}");
+        if gained >= 1e-9 {
+            println!("CASE {case} {gained:e}");
+        }
         beside += usize::from(gained >= 1e-9);
         worst = worst.max(gained);
         touching += 1;
     }
     println!("{touching} paths, {beside} gain, at most {worst:.1e} of the largest stored");
-    assert!(touching > long_samples(30, 1500) as usize && beside * 100 <= touching, "{touching} {beside}");
+    assert!(touching > long_samples(30, 1500) as usize && beside * 1000 <= touching, "{touching} {beside}");
 }
 
 /// Overlapping bodies are pushed, and others are not.
