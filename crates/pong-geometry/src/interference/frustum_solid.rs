@@ -249,7 +249,7 @@ impl<'a> Body<'a> {
                 }
             }
         }
-        if is_deep {
+        if is_deep && is_edge_near {
             let axis = self.frustum.axis;
             let across = any_perpendicular(&axis);
             for normal in lattice([axis, across, axis.cross(&across)]) {
