@@ -180,8 +180,7 @@ pub fn is_beside_edge(capsule: &Capsule, edge: &ConvexEdge) -> bool {
     (on_axis - on_edge).norm_squared() < capsule.radius * capsule.radius
 }
 
-/// Visits the two ends of the part of an axis over a face. An end at an edge that never pushes is left out: the face
-/// across that edge is at least as deep there.
+/// Visits the two ends of the part of an axis over a face.
 fn over_face(
     axis: &Axis,
     set: &TriangleSet,
@@ -197,15 +196,26 @@ fn over_face(
     if over[0].min(over[1]) < -axis.slack {
         return if over[0].max(over[1]) > axis.slack { Err(Reached) } else { Ok(()) };
     }
+    visit_ends((set, view), (part, at_edge), over.map(|height| axis.radius - height), visit);
+    Ok(())
+}
+
+/// Visits the ends of the part of a body over a face that have a depth, m. An end at an edge that never pushes is left
+/// out: the face across that edge is at least as deep there.
+pub(super) fn visit_ends(
+    (set, view): (&TriangleSet, &TriangleView),
+    (part, at_edge): ([f64; 2], [Option<usize>; 2]),
+    depths: [f64; 2],
+    visit: &mut dyn FnMut(&AxisPlace),
+) {
     let is_silent = |k: usize| matches!(view.classify_edge(set, k), EdgeClass::Silent { .. });
     for (end, edge) in at_edge.into_iter().enumerate() {
-        let depth = axis.radius - over[end];
+        let depth = depths[end];
         if depth > 0.0 && !edge.is_some_and(is_silent) {
             let feature = Feature::face(view.index as usize);
             visit(&AxisPlace { normal_b: view.normal, along: part[end], depth, part, feature });
         }
     }
-    Ok(())
 }
 
 /// Returns the part of a line over a face, given where it starts and the vector to its other end, as fractions of its

@@ -32,7 +32,7 @@ pub(super) fn down(frustum: &Frustum, normal: &Vec3) -> Vec3 {
 }
 
 /// Sine of an angle between two unit vectors that can come from rounding alone.
-const UPRIGHT: f64 = 16.0 * f64::EPSILON;
+pub(super) const UPRIGHT: f64 = 16.0 * f64::EPSILON;
 
 impl EndDisc<'_> {
     fn radius(&self) -> f64 {

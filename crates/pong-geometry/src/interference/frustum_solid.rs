@@ -16,6 +16,7 @@
 //!
 //! A walk from feature to feature, on which F falls, ends at one of these.
 
+use super::end_disc::UPRIGHT;
 use super::least_translation::{Local, lattice};
 use super::{Feature, FeatureKind, Interference};
 use crate::distance::Solid;
@@ -71,9 +72,6 @@ struct Body<'a> {
     /// Largest coordinate of A, m: rounding of places is relative to it.
     size: f64,
 }
-
-/// Sine of an angle between two unit vectors that can come from rounding alone.
-const UPRIGHT: f64 = 16.0 * f64::EPSILON;
 
 /// Longest turn in one step, rad.
 const FARTHEST: f64 = 0.3;

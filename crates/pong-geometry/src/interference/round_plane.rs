@@ -3,6 +3,7 @@
 //! and highest points.
 
 use super::Interference;
+use super::end_disc::UPRIGHT;
 use super::point_plane::point_plane;
 use super::sphere_plane::sphere_plane;
 use crate::primitive::{Capsule, Frustum, Plane, Point, Sphere};
@@ -36,8 +37,6 @@ pub fn frustum_plane(frustum: &Frustum, plane: &Plane) -> RimContacts {
 /// Returns the unit vector of steepest descent in the planes of the discs. If the axis is parallel to the
 /// plane's normal up to rounding, the result is a fixed vector perpendicular to that normal.
 fn down_the_discs(frustum: &Frustum, plane: &Plane) -> Vec3 {
-    /// Sine of an angle between two unit vectors that can come from rounding alone.
-    const UPRIGHT: f64 = 16.0 * f64::EPSILON;
     let level = plane.normal.cross(&frustum.axis);
     let sine = level.norm();
     // Cross products keep a small sine; a difference of two lengths near 1 would lose its digits.

@@ -7,7 +7,7 @@
 //! generator then, right above the edge or the vertex.
 
 use super::Feature;
-use super::axis_triangle::{Axis, AxisPlace, Beside, REGION_SLACK, Reached, part_over_face};
+use super::axis_triangle::{Axis, AxisPlace, Beside, REGION_SLACK, Reached, part_over_face, visit_ends};
 use super::end_disc::down;
 use super::triangle_features::{EdgeClass, TriangleView, vertex_pushes};
 use super::two_capsules::non_positive;
@@ -130,8 +130,7 @@ impl Lowest {
     }
 }
 
-/// Visits the two ends of the part of the lowest generator over a face, with the axis in front of it. An end at an edge
-/// that never pushes is left out, as for capsules.
+/// Visits the two ends of the part of the lowest generator over a face, with the axis in front of it.
 fn over_face(
     axis: &Axis,
     (set, view): (&TriangleSet, &TriangleView),
@@ -155,14 +154,8 @@ fn over_face(
     if over[0].min(over[1]) < -axis.slack {
         return Ok(());
     }
-    let is_silent = |k: usize| matches!(view.classify_edge(set, k), EdgeClass::Silent { .. });
-    for (end, edge) in at_edge.into_iter().enumerate() {
-        let depth = lowest.thickness(part[end]) - over[end];
-        if depth > 0.0 && !edge.is_some_and(is_silent) {
-            let feature = Feature::face(view.index as usize);
-            visit(&AxisPlace { normal_b: view.normal, along: part[end], depth, part, feature });
-        }
-    }
+    let depths = [0, 1].map(|end| lowest.thickness(part[end]) - over[end]);
+    visit_ends((set, view), (part, at_edge), depths, visit);
     Ok(())
 }
 

@@ -12,6 +12,7 @@
 //! well. For one normal the best offset is a root of a rising piecewise linear function. The normal is found by
 //! Newton's method on the unit sphere.
 
+use super::end_disc::UPRIGHT;
 use super::least_translation::{Limits, Local, SAME, lattice, least_of_many, newton};
 use super::round_surface::of_frustum;
 use super::two_ended_round::EndContact;
@@ -89,8 +90,6 @@ impl Side {
 
     #[inline]
     fn facing(&self, n: &Vec3) -> Facing {
-        /// Sine of an angle between two unit vectors that can come from rounding alone.
-        const UPRIGHT: f64 = 16.0 * f64::EPSILON;
         let level = n.cross(&self.axis);
         let sine = level.norm();
         let around =

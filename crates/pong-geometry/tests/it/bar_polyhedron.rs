@@ -2,9 +2,10 @@
 //! energy, closed forms, and invariances.
 
 use crate::common::bars::{
-    bar as capsule, component, gained_along, least_from, moved, moved_by, pushed, slope, stored,
+    bar as capsule, component, gained_along, least_from, moved, moved_by, normals_around, pushed,
+    smooth_slope, stored,
 };
-use crate::common::{cuboid, fibonacci_sphere, random_motion, stretched_hull};
+use crate::common::{cuboid, random_motion, stretched_hull};
 use pong_geometry::bounding::Bounded;
 use pong_geometry::interference::bar_polyhedron::{capsule_solid, segment_solid};
 use pong_geometry::interference::two_capsules::OverlapContacts;
@@ -70,12 +71,7 @@ fn on_plane(a: &Capsule, b: &Polyhedron, n: &Vec3) -> f64 {
 
 /// Least energy on planes, by descent from the best of many directions, of the faces and of the middles of edges.
 fn least_on_planes(a: &Capsule, b: &Polyhedron) -> f64 {
-    let faces = b.faces.iter().map(|face| face.normal);
-    let edges = b.edges.iter().flat_map(|edge| {
-        let [one, other] = edge.faces.map(|face| b.faces[face as usize].normal);
-        (1..8).map(move |k| one.lerp(&other, f64::from(k) / 8.0).normalize())
-    });
-    let normals = fibonacci_sphere(300).into_iter().chain(faces).chain(edges);
+    let normals = normals_around(b);
     least_from(normals, 6, (32, 1e-9), |n| on_plane(a, b, n))
 }
 
@@ -122,15 +118,8 @@ fn the_wrench_is_minus_the_derivative_of_the_energy() {
         compared += 1;
         for k in 0..6 {
             let at = |by: f64| energy(&moved_by(&a, k, by), b);
-            let [less, here, more] = [-2.0 * STEP, 0.0, 2.0 * STEP].map(at);
-            if (more - 2.0 * here + less).abs() > 1e-3 * force * STEP {
-                continue;
-            }
-            let [found_by, twice] = [STEP, 2.0 * STEP].map(|step| slope(at, step));
             // Where the place of the load comes into another region, the curvature steps.
-            if (found_by - twice).abs() > 3e-7 * force {
-                continue;
-            }
+            let Some(found_by) = smooth_slope(at, STEP, force) else { continue };
             let part = component(&found, k);
             let off = (part + found_by).abs() / force;
             assert!(off < 1e-6, "case {case}, {k}: {part} {found_by} {a:?}");

@@ -1,9 +1,9 @@
 //! Cylinders and cones on convex solids: the energy against its definition by planes, the wrench against the energy, closed
 //! forms, and invariances.
 
-use crate::common::bars::{component, least_from, slope};
+use crate::common::bars::{component, least_from, normals_around, smooth_slope};
 use crate::common::paths::gained;
-use crate::common::{cuboid, fibonacci_sphere, random_motion, stretched_hull};
+use crate::common::{cuboid, random_motion, stretched_hull};
 use pong_geometry::bounding::Bounded;
 use pong_geometry::distance::Solid as Convex;
 use pong_geometry::interference::frustum_solid::{PlaceContacts, frustum_solid};
@@ -94,12 +94,7 @@ fn on_plane(a: &Frustum, b: &Polyhedron, n: &Vec3) -> f64 {
 
 /// Least energy on planes, by descent from the best of many directions, of the faces and of the middles of edges.
 fn least_on_planes(a: &Frustum, b: &Polyhedron) -> f64 {
-    let faces = b.faces.iter().map(|face| face.normal);
-    let edges = b.edges.iter().flat_map(|edge| {
-        let [one, other] = edge.faces.map(|face| b.faces[face as usize].normal);
-        (1..8).map(move |k| one.lerp(&other, f64::from(k) / 8.0).normalize())
-    });
-    let normals = fibonacci_sphere(300).into_iter().chain(faces).chain(edges).chain([a.axis, -a.axis]);
+    let normals = normals_around(b).chain([a.axis, -a.axis]);
     least_from(normals, 6, (32, 1e-9), |n| on_plane(a, b, n))
 }
 
@@ -159,15 +154,8 @@ fn the_wrench_is_minus_the_derivative_of_the_energy() {
         compared += 1;
         for k in 0..6 {
             let at = |by: f64| energy(&moved_by(&a, k, by), b);
-            let [less, here, more] = [-2.0 * STEP, 0.0, 2.0 * STEP].map(at);
-            if (more - 2.0 * here + less).abs() > 1e-3 * force * STEP {
-                continue;
-            }
-            let [found_by, twice] = [STEP, 2.0 * STEP].map(|step| slope(at, step));
             // Where a place begins to touch, the curvature steps.
-            if (found_by - twice).abs() > 3e-7 * force {
-                continue;
-            }
+            let Some(found_by) = smooth_slope(at, STEP, force) else { continue };
             let part = component(&found, k);
             let off = (part + found_by).abs() / force;
             assert!(off < 1e-4, "case {case}, {k}: {part} {found_by} {a:?}");

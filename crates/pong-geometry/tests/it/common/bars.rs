@@ -1,8 +1,9 @@
 //! Segments and capsules whose two ends yield: what their contacts store, push and gain. The stiffness is 1 N/m.
 
+use super::fibonacci_sphere;
 use super::paths::gained;
 use pong_geometry::interference::two_capsules::OverlapContacts;
-use pong_geometry::primitive::Capsule;
+use pong_geometry::primitive::{Capsule, Polyhedron};
 use pong_geometry::{Quat, Vec3, Wrench};
 use std::f64::consts::TAU;
 
@@ -47,6 +48,25 @@ pub fn component(wrench: &Wrench, k: usize) -> f64 {
 /// Derivative at 0 by central differences of fourth order.
 pub fn slope(at: impl Fn(f64) -> f64, step: f64) -> f64 {
     (8.0 * (at(step) - at(-step)) - (at(2.0 * step) - at(-2.0 * step))) / (12.0 * step)
+}
+
+/// Derivative at 0 by differences; `None` where the slope or the curvature steps, by the force there, N.
+pub fn smooth_slope(at: impl Fn(f64) -> f64, step: f64, force: f64) -> Option<f64> {
+    let [less, here, more] = [-2.0 * step, 0.0, 2.0 * step].map(&at);
+    let [found, twice] = [step, 2.0 * step].map(|step| slope(&at, step));
+    let steps =
+        (more - 2.0 * here + less).abs() > 1e-3 * force * step || (found - twice).abs() > 3e-7 * force;
+    (!steps).then_some(found)
+}
+
+/// Unit normals all around, and those of the faces of a polyhedron and between them at its edges.
+pub fn normals_around(b: &Polyhedron) -> impl Iterator<Item = Vec3> {
+    let faces = b.faces.iter().map(|face| face.normal);
+    let edges = b.edges.iter().flat_map(|edge| {
+        let [one, other] = edge.faces.map(|face| b.faces[face as usize].normal);
+        (1..8).map(move |k| one.lerp(&other, f64::from(k) / 8.0).normalize())
+    });
+    fibonacci_sphere(300).into_iter().chain(faces).chain(edges)
 }
 
 /// Energy gained or lost along a screw, relative to the largest stored; `None` if hardly anything is stored.
