@@ -14,8 +14,7 @@ use common::stage::{FrameHash, Scene, Stage, workers};
 use pong_engine::{StatusBits, WorkerSettings, has_tester};
 use pong_geometry::primitive::PrimitiveKind;
 use pong_geometry::simd::{Level, set_level};
-use pong_testkit::samples;
-use pong_testkit::samples::is_full;
+use pong_testkit::{long_samples, samples};
 use std::collections::BTreeSet;
 use std::sync::OnceLock;
 use std::sync::atomic::Ordering;
@@ -102,8 +101,7 @@ fn the_answers_are_those_of_earlier_versions() {
 
 #[test]
 fn any_number_of_workers_gives_the_same_series() {
-    let counts: &[usize] = if is_full() { &[0, 1, 2, 3, 8, 16] } else { &[0, 3] };
-    for &count in counts {
+    for count in [3, 0, 16, 1, 2, 8].into_iter().take(long_samples(3, 6)) {
         for alone in alone() {
             let mut stage = alone.scene.set_up(workers(count));
             let mut shared = 0;
@@ -183,7 +181,7 @@ fn what_a_world_did_before_a_restore_does_not_count() {
 fn evaluated_four_times_a_frame_the_series_is_the_same() {
     for alone in alone() {
         let mut stage = alone.scene.set_up(workers(1));
-        for frame in 0..alone.scene.frames.min(samples(100)) {
+        for frame in 0..alone.scene.frames.min(long_samples(40, 100)) {
             stage.prepare(frame);
             for trial in [frame + 1, frame + 7, frame, frame] {
                 stage.place(trial);
