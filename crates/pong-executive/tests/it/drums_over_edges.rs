@@ -42,7 +42,7 @@ fn drum(is_upright: bool, (x, z): (f64, f64), speed: f64, friction: &str, host: 
     simulation
 }
 
-/// What a run came to.
+/// Result of a run.
 #[derive(Debug)]
 struct Run {
     /// Most that the mechanical energy fell below and rose above that of the start, J.
