@@ -33,7 +33,7 @@ impl Part {
     }
 }
 
-/// What A lies on: its text, its corners, m, and directions in which it has faces, edges and corners.
+/// Body below A: its text, its corners, m, and directions in which it has faces, edges and corners.
 struct Ground {
     text: String,
     corners: Vec<Vec3>,
