@@ -20,10 +20,23 @@ fn on_ground(
     body: RigidBody,
     step: f64,
 ) -> (Simulation, BodyId) {
+    on_ground_by(Integrator::RungeKutta4, cylinder, ground, stiffness, friction, body, step)
+}
+
+/// A cylinder on a ground as in [`on_ground`], with any integrator.
+pub fn on_ground_by(
+    integrator: Integrator,
+    cylinder: &str,
+    ground: &str,
+    stiffness: f64,
+    friction: &str,
+    body: RigidBody,
+    step: f64,
+) -> (Simulation, BodyId) {
     let surface = surface(2.0 * stiffness, &format!("normal: Linear(damping: 0.0), friction: {friction}"));
     let models = [model("body", &surface, cylinder), model("ground", &surface, ground)];
     let (world, _, interfaces) = paired_with_first(Config::default(), &[&models[0], &models[1]]);
-    let mut simulation = Simulation::new(world, Integrator::RungeKutta4, step).unwrap();
+    let mut simulation = Simulation::new(world, integrator, step).unwrap();
     let body = simulation.add_body(body.touching(interfaces[0])).unwrap();
     simulation.add_body(RigidBody::fixed("ground").touching(interfaces[1])).unwrap();
     (simulation, body)
