@@ -2,7 +2,7 @@
 //! gradient of a stored energy. With memory, free edges or segment ends it may lose energy, never gain.
 
 use crate::common::*;
-use crate::drums_on_triangles::block;
+use crate::drums_on_triangles::{block, block_of};
 use pong_geometry::{Quat, Vec3};
 use pong_testkit::{Random, long_samples};
 
@@ -458,7 +458,7 @@ fn drums_that_stand_on_triangles() {
     };
     let plate = plate_mesh("m", 3, 2.0, |x, y| Vec3::new(x, y, 0.0));
     let ridge = plate_mesh("m", 2, 2.0, |x, y| Vec3::new(x, y, -0.4 * x.abs()));
-    let block = block(1.0, 1.0);
+    let block = block_of(1.0, 1.0, 1.0);
     let (drum, plug) = (drum(0.15, [0.25, 0.25]), drum(0.2, [0.15, 0.2]));
     for (name, drum, ground, center, size, turn) in [
         ("on a plate", &drum, &plate, Vec3::new(0.9, 0.0, 0.15), 0.02, 0.05),

@@ -62,7 +62,8 @@ impl Stand {
     /// Returns the middle of the load, m: of the places with their depths as weights.
     pub fn middle_of_load(&self, frustum: &Frustum) -> Vec3 {
         let load: f64 = self.depths.iter().sum();
-        let sum: Vec3 = self.places(frustum).iter().zip(self.depths).map(|(place, depth)| place * depth).sum();
+        let sum: Vec3 =
+            self.places(frustum).iter().zip(self.depths).map(|(place, depth)| place * depth).sum();
         sum / load.max(f64::MIN_POSITIVE)
     }
 
@@ -125,7 +126,11 @@ impl Stand {
             if local.value <= 0.0 || slope.abs() <= f64::EPSILON * local.size {
                 break;
             }
-            if slope < 0.0 { low = stand.normal_b } else { high = stand.normal_b }
+            if slope < 0.0 {
+                low = stand.normal_b
+            } else {
+                high = stand.normal_b
+            }
             let step = -slope / bend.max(f64::MIN_POSITIVE);
             if bend > 0.0 && step.abs() <= ENOUGH {
                 break;

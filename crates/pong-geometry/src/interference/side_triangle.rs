@@ -56,8 +56,8 @@ pub fn side_triangle(
         let place = &mut |place: &AxisPlace| visit(Push::Place(place));
         outcome = over_face(&axis, (set, &view), &lowest, heights, place);
     }
-    let face = Feature::face(triangle as usize);
-    visit(Push::Stand(&Stand::new(frustum, &view.normal, &view.corners[0], face)));
+    let face = Stand::new(frustum, &view.normal, &view.corners[0], Feature::face(triangle as usize));
+    visit(Push::Stand(&face));
     let may_push = set.triangles[triangle as usize].may_push;
     let least = if is_back { REGION_SLACK } else { -REGION_SLACK };
     for k in (0..3).filter(|&k| may_push.edge(k) && view.owns_edge(set, k)) {
@@ -97,7 +97,9 @@ pub fn side_triangle(
         let upright = [frustum.axis, -frustum.axis].map(|axis| on(&sector.nearest(&axis)));
         let side = is_before.then(|| on(&sector.nearest(&away)));
         let lying = best.map(|best| on(&best.normal_b)).filter(Stand::lies);
-        let found = least_stand((lying, side), upright, |stand| stand.least_about_edge(frustum, &sector));
+        let lying = lying.map(|lying| (pushes(&lying.normal_b), lying));
+        let least = |stand: &Stand| stand.least_about_edge(frustum, &sector);
+        let found = least_stand((lying, side), upright, face.energy(), least);
         for stand in found.into_iter().flatten() {
             let is_clear = stand.energy() == 0.0;
             if pushes(&stand.normal_b) && (is_clear || is_beside(&stand.middle_of_load(frustum))) {
@@ -136,7 +138,9 @@ pub fn side_triangle(
         let lying = best.map(|best| on(&best.normal_b)).filter(Stand::lies);
         let side = side.map(|side| on(&-frustum.wall_toward(&side)));
         let middle = axis.start_b + axis.along_b * 0.5;
-        let found = least_stand((lying, side), upright, |stand| stand.least_about_point(frustum));
+        let lying = lying.map(|lying| (pushes(&lying.normal_b, &middle), lying));
+        let least = |stand: &Stand| stand.least_about_point(frustum);
+        let found = least_stand((lying, side), upright, face.energy(), least);
         for stand in found.into_iter().flatten() {
             if pushes(&stand.normal_b, &middle) {
                 visit(Push::Stand(&stand));
@@ -147,19 +151,22 @@ pub fn side_triangle(
 }
 
 /// Returns planes through an edge or a vertex on which a body stores less than on others beside them. `lying` is one that
-/// is known, on which both discs lie, `side` is where the search for another begins if there is none. `upright` are those
-/// on which the discs stand, from the lower of which another search begins, unless a known one is surely lower than all
-/// beside it: turned from there, a plane stores at least half as much as long as the middle of a disc is beside the edge.
+/// is known, on which both discs lie, with true if the feature pushes along it; `side` is where the search for another
+/// begins if there is none. `upright` are those on which the discs stand, from the lower of which another search begins,
+/// unless a plane is known that is surely lower than all beside it: this `lying` one, or that of the face, with its energy.
+/// Turned from there, a plane stores at least half as much as long as the middle of a disc is beside the feature.
 fn least_stand(
-    (lying, side): (Option<Stand>, Option<Stand>),
+    (lying, side): (Option<(bool, Stand)>, Option<Stand>),
     upright: [Stand; 2],
+    on_face: f64,
     least: impl Fn(&Stand) -> Stand,
 ) -> [Option<Stand>; 2] {
     let [one, other] = upright;
     let upright = if other.energy() < one.energy() { other } else { one };
+    let stands = |known: f64| (0.5 * upright.energy() < known).then(|| least(&upright));
     match lying {
-        Some(lying) if lying.energy() <= 0.5 * upright.energy() => [Some(lying), None],
-        Some(lying) => [Some(lying), Some(least(&upright))],
+        Some((true, lying)) => [Some(lying), stands(lying.energy())],
+        Some((false, _)) => [None, stands(on_face)],
         None => [side.map(|side| least(&side)), Some(least(&upright))],
     }
 }
