@@ -264,7 +264,7 @@ pub fn block(x: f64, y: f64) -> String {
     block_of(x, y, 0.2)
 }
 
-/// The same of any height, m.
+/// Closed block of triangles of any height, m, its top at z = 0.
 pub fn block_of(x: f64, y: f64, height: f64) -> String {
     let corner = |i: usize| {
         let sign = |bit: usize| if i >> bit & 1 == 1 { 1.0 } else { -1.0 };

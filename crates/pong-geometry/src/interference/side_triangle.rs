@@ -15,7 +15,7 @@ use super::two_capsules::non_positive;
 use crate::Vec3;
 use crate::primitive::{Capsule, Frustum, TriangleSet};
 
-/// What a triangle has for a body in front of it.
+/// Place or plane that a triangle has for a body beside it.
 #[derive(Clone, Copy, Debug)]
 pub enum Push<'a> {
     /// Place between the discs at which it may push.
