@@ -8,22 +8,18 @@
 //! K += r·(w·k·nnᵀ + k_t·(1 − nnᵀ))·rᵀ        r: its three directions on both movable groups, mobility.rs
 //! ```
 //!
-//! and ω² = λ, the largest eigenvalue of K. Friction counts as if it stuck everywhere. Of two capsules, whose ends yield
-//! (docs/theory.md, 2.8), a whole spring k·nnᵀ counts at each end of each axis, of its own body alone: U is at most what
-//! any displacement of the ends stores that follows a motion of the bodies.
+//! and ω² = λ, the largest eigenvalue of K. Friction counts as if it stuck everywhere. Where ends yield, the springs of
+//! `yielding.rs` count in place of those of the contacts, or beside them.
 
 use crate::coupling::surely_stable_with;
 use crate::mass::{GroupMass, SpringRates, StepPlan};
-use crate::mobility::{Vec6, largest_eigenvalue};
-use crate::places::{yield_at_ends, yields_on_round};
+use crate::mobility::largest_eigenvalue;
+use crate::rows::{Acting, primitives_of};
 use crate::setting::Setting;
-use crate::spring::ContactSprings;
+use crate::yielding::count_yielding;
 use nalgebra::DMatrix;
-use pong_engine::inspect::PushingContact;
 use pong_engine::{EngineError, InterfaceId, World};
-use pong_geometry::Vec3;
-use pong_geometry::primitive::PrimitiveKind;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Limits that the contacts of one frame set to a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -54,29 +50,22 @@ pub fn acting_report(
     plan.check()?;
     let setting = Setting::new(world, masses)?;
     let mut not_judged = 0;
-    let (mut acting, mut at_ends, mut axes) = (Vec::new(), Vec::new(), BTreeSet::new());
+    let (mut acting, mut contacts) = (Vec::new(), Vec::new());
+    let mut touching: BTreeMap<_, Vec<usize>> = BTreeMap::new();
     for contact in setting.scene.pushing()? {
-        let Some(mut known) = Acting::new(&setting, &contact) else {
+        let Some(known) = Acting::new(&setting, &contact) else {
             not_judged += 1;
             continue;
         };
-        if known.rows.is_empty() {
-            continue;
+        if !known.rows.is_empty() {
+            touching.entry(primitives_of(&contact)).or_default().push(acting.len());
+            acting.push(known);
+            contacts.push(contact);
         }
-        let [a, b] = primitives_of(&contact);
-        let kinds = [a, b].map(|primitive| kind_of(&setting, primitive));
-        let [both_yield, a_yields] =
-            [yield_at_ends, yields_on_round].map(|yields| yields(kinds[0], kinds[1]));
-        if both_yield || a_yields {
-            if axes.insert((a, b)) {
-                at_ends.extend(match both_yield {
-                    true => known.at_ends_of_axes(&setting, &contact),
-                    false => known.at_ends_of_a(&setting, &contact),
-                });
-            }
-            known.stiffens = 0.0;
-        }
-        acting.push(known);
+    }
+    let mut at_ends = Vec::new();
+    for of_two in touching.values() {
+        at_ends.extend(count_yielding(&setting, &contacts, &mut acting, of_two));
     }
     let ratio = acting.iter().map(|one| one.springs.least_damped()).fold(f64::INFINITY, f64::min);
     let groups: BTreeSet<usize> = acting.iter().flat_map(|one| one.rows.iter().map(|row| row.0)).collect();
@@ -112,113 +101,6 @@ fn sum_of_springs(setting: &Setting<'_>, groups: &BTreeSet<usize>) -> SpringRate
         let here = setting.springs_on(*body);
         SpringRates { stiffness: most.stiffness.max(here.stiffness), damping: most.damping.max(here.damping) }
     })
-}
-
-/// A contact with at least one body that yields.
-#[derive(Clone)]
-struct Acting {
-    springs: ContactSprings,
-    weight: f64,
-    /// Part of the normal spring that the stiffness has: the weight, but 0 for a contact of bodies that yield at the ends of
-    /// their axes, whose springs count there.
-    stiffens: f64,
-    /// Unit normal from B to A, in B's frame.
-    normal: Vec3,
-    /// The axes of B's frame as forces on the movable groups that yield.
-    rows: Vec<(usize, [Vec6; 3])>,
-}
-
-impl Acting {
-    /// Makes it; `None` if the contact cannot be judged.
-    fn new(setting: &Setting<'_>, contact: &PushingContact<'_>) -> Option<Self> {
-        let (a, b) = (contact.group_a, contact.group_b);
-        if setting.masses[a].is_none() || setting.masses[b].is_none() {
-            return None;
-        }
-        let springs = setting.pressed_springs(contact)?;
-        let rows = rows_of(setting, contact);
-        let weight = contact.weight;
-        Some(Self { springs, weight, stiffens: weight, normal: contact.normal_b, rows })
-    }
-
-    /// Whole springs along this normal at the four ends of the axes of two capsules.
-    fn at_ends_of_axes(&self, setting: &Setting<'_>, contact: &PushingContact<'_>) -> Vec<Self> {
-        let x_ba = contact.x_ba;
-        let mut all = Vec::new();
-        for (k, (group, primitive)) in primitives_of(contact).into_iter().enumerate() {
-            let (Some(mobility), Some(ends)) =
-                (setting.mobilities[group].as_ref(), ends_of_axis(setting, (group, primitive)))
-            else {
-                continue;
-            };
-            for end in ends {
-                let axis = |axis: Vec3| if k == 0 { x_ba.rotation.tr_mul(&axis) } else { -axis };
-                let rows = AXES.map(|own| mobility.row(&axis(own), &end));
-                let springs = ContactSprings { friction: None, ..self.springs };
-                all.push(Self { rows: vec![(group, rows)], stiffens: 1.0, springs, ..self.clone() });
-            }
-        }
-        all
-    }
-
-    /// Half springs along this normal at the two ends of A's axis, which both bodies feel.
-    fn at_ends_of_a(&self, setting: &Setting<'_>, contact: &PushingContact<'_>) -> Vec<Self> {
-        let ends = ends_of_axis(setting, (contact.group_a, contact.primitive_a)).into_iter().flatten();
-        let at_end = |end: Vec3| {
-            let rows = rows_of(setting, &PushingContact { point_b: contact.x_ba.point(&end), ..*contact });
-            let springs = ContactSprings { friction: None, ..self.springs };
-            Self { rows, stiffens: 0.5, springs, ..self.clone() }
-        };
-        ends.map(at_end).collect()
-    }
-}
-
-/// Ends of the axis of a primitive, in the frame of its movable group, if it has one.
-fn ends_of_axis(setting: &Setting<'_>, (group, primitive): (usize, u32)) -> Option<[Vec3; 2]> {
-    let body = setting.scene.body(group);
-    let info = &body.primitives[primitive as usize];
-    let core = body.element(info.kind, info.elements.start).facts()?.core()?;
-    Some(core.0)
-}
-
-/// The axes of B's frame.
-const AXES: [Vec3; 3] = [Vec3::new(1.0, 0.0, 0.0), Vec3::new(0.0, 1.0, 0.0), Vec3::new(0.0, 0.0, 1.0)];
-
-/// Movable group and primitive of A and of B.
-fn primitives_of(contact: &PushingContact<'_>) -> [(usize, u32); 2] {
-    [(contact.group_a, contact.primitive_a), (contact.group_b, contact.primitive_b)]
-}
-
-fn kind_of(setting: &Setting<'_>, (group, primitive): (usize, u32)) -> PrimitiveKind {
-    setting.scene.body(group).primitives[primitive as usize].kind
-}
-
-/// The axes of B's frame, at a contact, as forces on the movable groups that yield.
-pub(crate) fn rows_of(setting: &Setting<'_>, contact: &PushingContact<'_>) -> Vec<(usize, [Vec6; 3])> {
-    let x_ba = contact.x_ba;
-    let at_a = x_ba.rotation.tr_mul(&(contact.point_b - x_ba.translation));
-    let on_a = setting.mobilities[contact.group_a]
-        .as_ref()
-        .map(|body| (contact.group_a, AXES.map(|axis| body.row(&x_ba.rotation.tr_mul(&axis), &at_a))));
-    let on_b = setting.mobilities[contact.group_b]
-        .as_ref()
-        .map(|body| (contact.group_b, AXES.map(|axis| body.row(&-axis, &contact.point_b))));
-    on_a.into_iter().chain(on_b).collect()
-}
-
-/// Inverse of the effective mass at a contact along the normal, 1/kg, and its largest value along the surface.
-pub(crate) fn compliances_at(setting: &Setting<'_>, contact: &PushingContact<'_>) -> [f64; 2] {
-    let mut sum = pong_geometry::Mat3::zeros();
-    for (_, rows) in rows_of(setting, contact) {
-        sum += pong_geometry::Mat3::from_fn(|i, j| rows[i].dot(&rows[j]));
-    }
-    if setting.share_joints(contact.group_a, contact.group_b) {
-        sum *= 2.0;
-    }
-    let n = &contact.normal_b;
-    let flat = pong_geometry::Mat3::identity() - n * n.transpose();
-    let along = flat * sum * flat;
-    [n.dot(&(sum * n)), largest_eigenvalue(DMatrix::from_column_slice(3, 3, along.as_slice()))]
 }
 
 /// Largest eigenvalue of the sum over all contacts; `values` gives the rates along the normal and across it.

@@ -42,6 +42,7 @@ mod mobility;
 mod modes;
 mod places;
 mod pressed;
+mod rows;
 mod setting;
 mod solids;
 mod spring;
@@ -50,6 +51,7 @@ mod stored;
 mod term;
 mod together;
 mod warn;
+mod yielding;
 
 /// Upper bound of the memory of a [`step_report`] per pair of movable groups, bytes: a caller that must not
 /// run out of memory after the seal reserves it ([`pong_engine::WorldBuilder::leave_room_per_pair`]).

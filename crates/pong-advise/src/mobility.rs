@@ -46,6 +46,11 @@ impl Mobility {
         self.linear.tr_mul(direction) + self.angular.tr_mul(&(at - self.center).cross(direction))
     }
 
+    /// Sᵀ·(0, d): a moment about the direction d.
+    pub fn turn_row(&self, direction: &Vec3) -> Vec6 {
+        self.angular.tr_mul(direction)
+    }
+
     /// Adds a spring along a direction at a point.
     pub fn add(&self, sum: &mut Mat6, stiffness: f64, direction: &Vec3, at: &Vec3) {
         let row = self.row(direction, at);

@@ -46,11 +46,21 @@ pub(crate) fn yield_at_ends(kind_a: PrimitiveKind, kind_b: PrimitiveKind) -> boo
     }
 }
 
-/// Returns true for kinds of which A alone yields at the ends of its axis (docs/theory.md, 2.8): no motion of either body
-/// meets more than half a spring at each end of A's axis, however far it overhangs.
-pub(crate) fn yields_on_round(kind_a: PrimitiveKind, kind_b: PrimitiveKind) -> bool {
-    matches!(kind_a, PrimitiveKind::LineSegment | PrimitiveKind::Capsule)
-        && matches!(kind_b, PrimitiveKind::Cylinder | PrimitiveKind::Cone)
+/// Returns true for kinds of which A alone yields at the ends of its axis (docs/theory.md, 2.8), however far it overhangs.
+pub(crate) fn yields_alone(kind_a: PrimitiveKind, kind_b: PrimitiveKind) -> bool {
+    use PrimitiveKind::{Capsule, Cone, Cylinder, LineSegment, Polyhedron, Triangle};
+    match kind_b {
+        Cylinder | Cone | Polyhedron => matches!(kind_a, LineSegment | Capsule),
+        Triangle => matches!(kind_a, Capsule | Cylinder | Cone),
+        _ => false,
+    }
+}
+
+/// Returns true for kinds of which A has an axis that may overhang B and hold it at A's ends.
+pub(crate) fn overhangs(kind_a: PrimitiveKind, kind_b: PrimitiveKind) -> bool {
+    use PrimitiveKind::{Capsule, Cone, Cylinder, LineSegment, Polyhedron, Triangle};
+    matches!(kind_a, LineSegment | Capsule | Cylinder | Cone)
+        && matches!(kind_b, Cylinder | Cone | Polyhedron | Triangle)
 }
 
 pub(crate) type Compliances = BTreeMap<(PrimitiveKind, u32), Compliance>;

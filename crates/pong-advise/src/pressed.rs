@@ -4,10 +4,10 @@
 //! judged for an assumed closing speed. Here both are known; the warnings are those of `warn.rs`, as for
 //! every other check of a step.
 
-use crate::acting::compliances_at;
 use crate::check::StepReport;
 use crate::limits::pair_limits;
 use crate::mass::{GroupMass, StepPlan};
+use crate::rows::compliances_at;
 use crate::setting::{Known, STIFF, Setting};
 use crate::warn::warnings;
 use pong_engine::inspect::PushingContact;

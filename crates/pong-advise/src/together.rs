@@ -10,7 +10,8 @@
 //!   touch several surfaces at once counts for each.
 //! * **direction**: on a plane its normal; elsewhere k·nnᵀ ≤ k·1, an isotropic spring.
 //! * **friction** that sticks at all of them, at the lever of the ball's surface.
-//! * **both bodies**: the other body's share is that of its farthest point, and the λ of two bodies add.
+//! * **both bodies**: the other body's share is that of its farthest point, under an axis that may overhang it that of the
+//!   farthest place of the axis, and the λ of two bodies add.
 //! * **all partners**: the effects of different partners on one group add.
 //!
 //! Each of these can only raise λ, except for levers of friction on balls and for the directions of
@@ -18,7 +19,7 @@
 
 use crate::mass::StepPlan;
 use crate::mobility::{Mat6, Mobility, largest_eigenvalue};
-use crate::places::yield_at_ends;
+use crate::places::{overhangs, yield_at_ends};
 use crate::setting::Setting;
 use crate::spring::{ContactSprings, Spring, springs};
 use crate::term::Term;
@@ -146,6 +147,8 @@ impl Direction {
         };
         let partners = distinct(body_b, |info| setting.scene.filters_that_hold((b, info), a));
         let mut sites = Vec::new();
+        // Longest part of A that holds B at places beside it, m.
+        let mut overhang = 0.0_f64;
         let mut cached: Vec<(Alike, Option<ContactSprings>)> = Vec::new();
         for (index, info) in body_a.primitives.iter().enumerate() {
             let of = (info.kind, info.surface, setting.scene.filters_that_hold((a, info), b));
@@ -167,7 +170,11 @@ impl Direction {
                     made
                 }
             };
-            sites.extend(made.and_then(|springs| site(body_a, index, springs)));
+            let Some(site) = made.and_then(|springs| site(body_a, index, springs)) else { continue };
+            if partners.iter().any(|partner| meets(info, partner) && overhangs(info.kind, partner.kind)) {
+                overhang = overhang.max(2.0 * site.reach());
+            }
+            sites.push(site);
         }
         let kinds: Vec<_> = body_a.primitives.iter().map(|info| info.kind).collect();
         let touched =
@@ -177,7 +184,12 @@ impl Direction {
         let boxes = boxes(body_b, touched);
         let softness_b = setting.mobilities[b].map_or(0.0, |mobility| {
             let at_center = mobility.compliance(mobility.center());
-            boxes.iter().map(|extent| mobility.compliance_in(extent)).fold(at_center, f64::max)
+            // Half of the spring is at each end of A's axis, and one of the ends is above B.
+            let softness = |(low, high): &(Vec3, Vec3)| {
+                let wider = (low.add_scalar(-overhang), high.add_scalar(overhang));
+                0.5 * (mobility.compliance_in(&(*low, *high)) + mobility.compliance_in(&wider))
+            };
+            boxes.iter().map(softness).fold(at_center, f64::max)
         });
         Self { sites, mobility_a, softness_b, boxes, planes }
     }

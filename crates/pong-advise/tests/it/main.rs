@@ -4,3 +4,4 @@ mod interface;
 mod solids;
 mod step_advice;
 mod told;
+mod yielding_ends;

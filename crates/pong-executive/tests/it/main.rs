@@ -4,6 +4,7 @@ mod advice;
 mod checkpoint;
 mod common;
 mod contact;
+mod drums_over_edges;
 mod exchange;
 mod free_flight;
 mod long_frames;
