@@ -3,7 +3,8 @@
 
     BLENDER_USER_RESOURCES=FOLDER PONG_WHEEL=FILE python shipped.py FOLDER
 
-The wheel `pong` that is used is the one that Blender has installed from the zips: no other is in reach.
+The wheel `pong` that is used is the one that Blender has installed from the zips: no other is in reach. With ZIPS=DIR, the zips
+of a release in that folder are used, with the wheels of every system, and none are built.
 
 `blender_ext.py` is what `blender --command extension validate` runs; it comes with the module too.
 """
@@ -25,24 +26,29 @@ MUST_HOLD = {
 
 
 def built(name, folder):
-    """The zip, checked by Blender's own tool; two builds from the same sources are equal."""
-    import bpy
-
+    """The zip; two builds from the same sources are equal."""
     zips = []
     for out in (folder / "zips", folder / "again"):
         tool = [sys.executable, str(BLENDER / "build_zips.py"), name, "-o", str(out)]
         zips.append(Path(subprocess.run(tool, check=True, capture_output=True, text=True).stdout.strip()))
     assert zips[0].read_bytes() == zips[1].read_bytes(), zips
+    return zips[0]
+
+
+def checked(name, path):
+    """The zip, after Blender's own tool and its contents have been looked at."""
+    import bpy
+
     judge = Path(bpy.utils.resource_path("LOCAL")) / "scripts/addons_core/bl_pkg/cli/blender_ext.py"
-    for target in (BLENDER / name, zips[0]):
+    for target in (BLENDER / name, path):
         subprocess.run([sys.executable, str(judge), "validate", str(target)], check=True)
-    entries = zipfile.ZipFile(zips[0]).infolist()
+    entries = zipfile.ZipFile(path).infolist()
     names = {entry.filename for entry in entries}
     assert not [name for name in names if "__pycache__" in name or name.endswith(".pyc")], names
-    wanted = MUST_HOLD[name] | {f"wheels/{Path(os.environ['PONG_WHEEL']).name}"}
+    wanted = MUST_HOLD[name] | ({f"wheels/{Path(os.environ['PONG_WHEEL']).name}"} if not os.environ.get("ZIPS") else set())
     assert wanted <= names, wanted - names
     assert all(entry.external_attr >> 28 == 8 for entry in entries), "a link, or no plain file"
-    return zips[0]
+    return path
 
 
 def install(name, path):
@@ -159,8 +165,10 @@ def main():
         leave()
     assert Path(os.environ["BLENDER_USER_RESOURCES"]).resolve() == folder.resolve()
     refuse_other_platform(folder)
+    given = os.environ.get("ZIPS")
     for name in MUST_HOLD:
-        install(name, built(name, folder))
+        path = next(Path(given).glob(f"{name}-*.zip")) if given else built(name, folder)
+        install(name, checked(name, path))
     environment = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
     subprocess.run([sys.executable, str(HERE), "--use", str(folder)], check=True, env=environment)
     leave()

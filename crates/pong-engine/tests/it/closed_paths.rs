@@ -2,7 +2,7 @@
 //! gradient of a stored energy. With memory, free edges or segment ends it may lose energy, never gain.
 
 use crate::common::*;
-use crate::drums_on_triangles::block;
+use crate::drums_on_triangles::{block, block_of};
 use pong_geometry::{Quat, Vec3};
 use pong_testkit::{Random, long_samples};
 
@@ -445,6 +445,32 @@ fn drums_on_triangles() {
             (center, size, turn),
             Allowed::Nothing,
         );
+    }
+}
+
+/// Standing on a plate, past its rim and a corner, on a ridge, over an edge and a corner of a block, and leaning there.
+#[test]
+fn drums_that_stand_on_triangles() {
+    let drum = |half: f64, radii: [f64; 2]| {
+        let ends = format!("ends: ((0,0,-{half}),(0,0,{half}))");
+        let radii = format!("({:?},{:?})", radii[0], radii[1]);
+        model("drum", &elastic(), &format!("Cone(name: \"l\", {ends}, radii: {radii})"))
+    };
+    let plate = plate_mesh("m", 3, 2.0, |x, y| Vec3::new(x, y, 0.0));
+    let ridge = plate_mesh("m", 2, 2.0, |x, y| Vec3::new(x, y, -0.4 * x.abs()));
+    let block = block_of(1.0, 1.0, 1.0);
+    let (drum, plug) = (drum(0.15, [0.25, 0.25]), drum(0.2, [0.15, 0.2]));
+    for (name, drum, ground, center, size, turn) in [
+        ("on a plate", &drum, &plate, Vec3::new(0.9, 0.0, 0.15), 0.02, 0.05),
+        ("past a rim", &drum, &plate, Vec3::new(1.03, 0.0, 0.15), 0.02, 0.05),
+        ("past a corner", &plug, &plate, Vec3::new(0.98, 1.01, 0.2), 0.03, 0.05),
+        ("on a ridge", &drum, &ridge, Vec3::new(0.02, 0.0, 0.14), 0.02, 0.05),
+        ("over an edge of a block", &plug, &block, Vec3::new(1.0, 0.0, 0.19), 0.02, 0.1),
+        ("over a corner of a block", &drum, &block, Vec3::new(1.0, 0.97, 0.14), 0.02, 0.05),
+        ("leaning over an edge", &drum, &block, Vec3::new(1.1, 0.0, 0.14), 0.03, 0.4),
+    ] {
+        let ground = model("ground", &elastic(), ground);
+        check_closed_paths(name, drum, &ground, (center, size, turn), Allowed::Nothing);
     }
 }
 

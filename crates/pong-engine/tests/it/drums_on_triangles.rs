@@ -15,7 +15,7 @@ fn part(text: &str) -> String {
 }
 
 /// A cylinder or a cone along x, its middle at the origin.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 struct Drum {
     length: f64,
     radii: [f64; 2],
@@ -261,9 +261,14 @@ fn the_wrench_of_a_drum_derives_from_its_energy() {
 
 /// A closed block of triangles, 2·x by 2·y wide and 0.2 m high, its top at z = 0.
 pub fn block(x: f64, y: f64) -> String {
+    block_of(x, y, 0.2)
+}
+
+/// Closed block of triangles of any height, m, its top at z = 0.
+pub fn block_of(x: f64, y: f64, height: f64) -> String {
     let corner = |i: usize| {
         let sign = |bit: usize| if i >> bit & 1 == 1 { 1.0 } else { -1.0 };
-        format!("({:?},{:?},{:?})", x * sign(0), y * sign(1), if i >> 2 & 1 == 1 { 0.0 } else { -0.2 })
+        format!("({:?},{:?},{:?})", x * sign(0), y * sign(1), if i >> 2 & 1 == 1 { 0.0 } else { -height })
     };
     let corners: Vec<String> = (0..8).map(corner).collect();
     format!(
@@ -271,4 +276,169 @@ pub fn block(x: f64, y: f64) -> String {
          (2,6,7),(2,7,3),(0,4,6),(0,6,2),(1,3,7),(1,7,5)])",
         corners.join(",")
     )
+}
+
+/// Turns the axis of a drum, along x, to one that leans from the vertical by `tilt`, with end 0 or end 1 below.
+fn upright(end: usize, tilt: Vec3) -> Quat {
+    let turn = [-0.5, 0.5][end] * std::f64::consts::PI;
+    Quat::from_scaled_axis(tilt) * Quat::from_scaled_axis(Vec3::y() * turn)
+}
+
+/// A coin and two drums, one of them a cone.
+const STANDING: [Drum; 3] =
+    [Drum::new(0.05, [0.2, 0.2]), Drum::new(0.3, [0.25, 0.25]), Drum::new(0.4, [0.1, 0.2])];
+
+/// A drum that stands carries kδ in its middle as long as its middle is over the plate, whatever overhangs; with its middle
+/// past a rim by x, kδ/(1 + (x/R)²) at the rim. A sheet and a block are the same.
+#[test]
+fn a_standing_drum_carries_what_its_places_store() {
+    let whole = PAIR * DEPTH;
+    // What the first plate gives; the cuts of the others, and the sides of the block, change nothing.
+    let mut known: Vec<Wrench> = Vec::new();
+    for ground in [plate(1), plate(3), plate(8), block(1.0, 1.0)] {
+        let mut found = Vec::new();
+        for (drum, end) in STANDING.into_iter().flat_map(|drum| [(drum, 0), (drum, 1)]) {
+            let radius = drum.radii[end];
+            let mut rig = on(&drum, &ground);
+            for (x, y) in
+                [(0.0, 0.3), (-0.9, 0.3), (-0.2, 0.2), (-0.05, -0.05), (0.3, 0.03), (0.6, -0.7), (0.9, 0.1)]
+            {
+                let at = Vec3::new(1.0 + x * radius, (1.0 + y * radius).min(0.9), 0.5 * drum.length - DEPTH);
+                let (wrench, _) = set_at(&mut rig, (at, upright(end, Vec3::zeros())));
+                found.push(wrench);
+                let past = x.max(0.0);
+                let force = whole / (1.0 + past * past);
+                let limit = if x > 0.0 { 0.03 } else { 1e-9 };
+                let off = (wrench.force - Vec3::z() * force).norm();
+                assert!(off < limit * whole, "{drum:?} {end} {x} {y}: {wrench:?} {force}");
+                // About the middle of the drum.
+                let moment = Vec3::new(0.0, past * radius * force, 0.0);
+                assert!(
+                    (wrench.moment - moment).norm() < limit * whole * radius,
+                    "{drum:?} {end} {x}: {wrench:?} {moment}"
+                );
+            }
+        }
+        for (one, other) in known.iter().zip(&found) {
+            let off = (one.force - other.force).norm() + (one.moment - other.moment).norm();
+            assert!(off < 1e-9 * whole, "{one:?} {other:?}");
+        }
+        known = if known.is_empty() { found } else { known };
+    }
+}
+
+/// Standing, on a plate that it overhangs on one side, on both, at a corner, with its middle past a rim or a corner, and on
+/// a ridge: a tilt of 1e-7 in any direction changes neither force nor moment by more than its stiffness gives.
+#[test]
+fn the_load_of_a_standing_drum_does_not_step() {
+    let ridge = plate_mesh("p", 2, 4.0, |x, y| Vec3::new(x, y, -0.5 * x.abs()));
+    let strip = plate_mesh("p", 3, 2.0, |x, y| Vec3::new(0.04 * x, y, 0.0));
+    for (drum, end) in STANDING.into_iter().flat_map(|drum| [(drum, 0), (drum, 1)]) {
+        for (ground, x, y) in [
+            (&plate(3), 0.95, 0.03),
+            (&plate(3), 1.03, 0.03),
+            (&plate(3), 0.95, 0.97),
+            (&plate(3), 1.03, 0.98),
+            (&plate(3), 1.03, 1.02),
+            (&block(1.0, 1.0), 1.03, 0.03),
+            (&block(1.0, 1.0), 0.95, 0.97),
+            (&strip, 0.01, 0.1),
+            (&ridge, 0.0, 0.1),
+            (&ridge, 0.03, 0.1),
+        ] {
+            let mut rig = on(&drum, ground);
+            let mut at = |tilt: Vec3| {
+                let place = Vec3::new(x, y, 0.5 * drum.length - DEPTH);
+                set_at(&mut rig, (place, upright(end, tilt))).0
+            };
+            let level = at(Vec3::zeros());
+            assert!(level.force.norm() > 0.3 * PAIR * DEPTH, "{drum:?} {end} {x} {y}: {level:?}");
+            for direction in [Vec3::x(), -Vec3::x(), Vec3::y(), -Vec3::y(), Vec3::new(0.6, 0.8, 0.0)] {
+                for tilt in [1e-9, 1e-7] {
+                    let tilted = at(direction * tilt);
+                    let off = (tilted.force - level.force).norm() + (tilted.moment - level.moment).norm();
+                    let most = 1e3 * tilt * level.force.norm();
+                    assert!(off <= most, "{drum:?} {end} {x} {y} {direction:?} {tilt}: {tilted:?} {level:?}");
+                }
+            }
+        }
+    }
+}
+
+/// A pose on the block whose top is at z = 0 between ±x and ±y, standing, leaning or lying, not deeper than `most`.
+fn beside_block(drum: &Drum, random: &mut Random, case: usize, most: f64) -> (Vec3, Quat) {
+    let lean = [1e-6, 1e-2, 0.5, 3.0][case % 4];
+    let turn = Quat::from_scaled_axis(random.vector(lean)) * upright(case / 4 % 2, Vec3::zeros());
+    let axis = turn * Vec3::x();
+    let sine = (1.0 - axis.z * axis.z).max(0.0).sqrt();
+    let low = [-0.5, 0.5].map(|half| half * drum.length * axis.z);
+    let low = (drum.radii[0] * sine - low[0]).max(drum.radii[1] * sine - low[1]);
+    let middle = random.vector(0.45);
+    (Vec3::new(middle.x, middle.y, low - random.between(0.0, most)), turn)
+}
+
+/// On a closed block of triangles a drum that stands, leans or lies has the wrench that it has on the same block as a convex
+/// solid.
+#[test]
+fn a_block_of_triangles_is_the_solid_block() {
+    let solid = box_polyhedron("s", [0.0, 0.0, -0.5], [0.4, 0.3, 0.5], "");
+    for (index, drum) in STANDING.into_iter().chain(DRUMS).enumerate() {
+        let mut rigs = [on(&drum, &block_of(0.4, 0.3, 1.0)), on(&drum, &solid)];
+        let mut random = Random(3 + index as u64);
+        let (mut touching, mut worst) = (0, 0.0_f64);
+        let most = 0.02 * drum.radii[0].min(drum.radii[1]);
+        for case in 0..400 {
+            let pose = beside_block(&drum, &mut random, case, most);
+            let [one, other] = rigs.each_mut().map(|rig| set_at(rig, pose));
+            let scale = PAIR * most;
+            let off = (one.0.force - other.0.force).norm() + (one.0.moment - other.0.moment).norm();
+            assert!(off < 1e-9 * scale, "{index} {case}: {:e} {one:?} {other:?} {pose:?}", off / scale);
+            worst = worst.max(off / scale);
+            touching += usize::from(other.1 > 0.0);
+        }
+        println!("{index}: {touching} touch, off by {worst:e}");
+        assert!(touching > 200, "{index}: {touching}");
+    }
+}
+
+/// The wrench of a drum that stands is minus the derivative of its energy, over rims and corners.
+#[test]
+fn the_wrench_of_a_standing_drum_derives_from_its_energy() {
+    const STEP: f64 = 1e-6;
+    for (name, mesh) in [
+        ("plate", plate_mesh("p", 3, 0.8, |x, y| Vec3::new(x, 0.75 * y, 0.0))),
+        ("block", block_of(0.4, 0.3, 1.0)),
+        ("dome", plate_mesh("p", 8, 0.8, |x, y| Vec3::new(x, y, -0.3 * (x * x + y * y)))),
+    ] {
+        for (index, drum) in STANDING.iter().enumerate() {
+            let mut rig = on(drum, &mesh);
+            let mut random = Random(17);
+            let (mut compared, mut kinks, mut worst) = (0, 0, 0.0_f64);
+            for case in 0..400 {
+                let pose = beside_block(drum, &mut random, case / 3 * 4 + case % 3, 0.01);
+                let (velocity, rate) = (random.direction(), random.direction());
+                let mut at = |time: f64| {
+                    let turn = Quat::from_scaled_axis(rate * time) * pose.1;
+                    set_at(&mut rig, (pose.0 + velocity * time, turn))
+                };
+                let ((_, before), (_, after), (wrench, middle)) = (at(-STEP), at(STEP), at(0.0));
+                let force = wrench.force.norm();
+                if force < 1.0 {
+                    continue;
+                }
+                let halves = [(after - middle) / STEP, (middle - before) / STEP];
+                if (halves[0] - halves[1]).abs() > 1e-3 * force {
+                    kinks += 1;
+                    continue;
+                }
+                let power = wrench.force.dot(&velocity) + wrench.moment.dot(&rate);
+                let off = (power + 0.5 * (halves[0] + halves[1])).abs() / force;
+                assert!(off < 1e-6, "{name} {index} {case}: {off:e} {wrench:?} {middle} {pose:?}");
+                worst = worst.max(off);
+                compared += 1;
+            }
+            println!("{name} {index}: {compared}, {kinks} at kinks, off by {worst:e}");
+            assert!(compared > 50, "{name} {index}: {compared}");
+        }
+    }
 }

@@ -3,7 +3,7 @@
 
 use crate::common::*;
 use pong_geometry::{Quat, Vec3};
-use pong_testkit::{Random, samples};
+use pong_testkit::{Random, long_samples, samples};
 
 const K: f64 = 1e5;
 const SIZE: f64 = 1.0;
@@ -73,8 +73,8 @@ fn worst_difference(plate: &str, q: &Quat, random: &mut Random, places: &[Vec3])
 /// Random positions, and the worst ones: over vertices, edge midpoints and along edges of the grid.
 fn places(cells: usize, random: &mut Random) -> Vec<Vec3> {
     let step = SIZE / cells as f64;
-    let mut places: Vec<Vec3> = (0..samples(300)).map(|_| random.vector(0.3)).collect();
-    for i in 0..samples(60) {
+    let mut places: Vec<Vec3> = (0..long_samples(100, 300)).map(|_| random.vector(0.3)).collect();
+    for i in 0..long_samples(20, 60) {
         let (a, b) = ((i % 7) as f64 - 3.0, (i % 5) as f64 - 2.0);
         let node = Vec3::new((a * step).clamp(-0.3, 0.3), (b * step).clamp(-0.3, 0.3), 0.0);
         places.push(node);

@@ -6,10 +6,9 @@ use crate::common::Rig;
 use crate::common::stage::workers;
 use pong_engine::{Config, DeepInMeshReport, StatusBits, WorkerSettings};
 use pong_geometry::{Pose, Quat, Twist, Vec3};
-use pong_testkit::Random;
 use pong_testkit::meshes::{Place, l_shape, torus};
 use pong_testkit::ron::{box_polyhedron, triangle_mesh};
-use pong_testkit::samples::samples;
+use pong_testkit::{Random, long_samples};
 
 /// Model of one mesh of triangles; equal places become one vertex.
 fn mesh(surface: &str, triangles: &[[Place; 3]]) -> String {
@@ -88,7 +87,7 @@ fn wrench_of_meshes_is_the_derivative_of_the_energy() {
         let mut pair = Pair::new(&a, &b);
         let mut random = Random::new(31, 0, 0);
         let mut errors: Vec<f64> = Vec::new();
-        for _ in 0..samples(600) {
+        for _ in 0..long_samples(200, 600) {
             let turn = Quat::from_scaled_axis(random_vector(&mut random, 2.0));
             let along = random_vector(&mut random, 1.0).normalize();
             let Some(at) = touch(&mut pair, turn, along, 0.4) else { continue };

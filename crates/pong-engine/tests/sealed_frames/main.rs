@@ -15,7 +15,7 @@ mod solids;
 use heap::{counted, during, helpers, my_turn};
 use pong_engine::{Config, NormalForce, NormalInput, WorkerSettings, has_tester};
 use pong_geometry::primitive::PrimitiveKind;
-use pong_testkit::samples;
+use pong_testkit::long_samples;
 use registered::Cubic;
 use scene::{Bench, Seen};
 use std::collections::BTreeSet;
@@ -54,7 +54,7 @@ fn run(config: Config, frames: u32) -> (Bench, Vec<(&'static str, usize)>) {
 
 /// Frames of one run.
 fn frames() -> u32 {
-    samples(100_000) as u32
+    long_samples(30_000, 100_000) as u32
 }
 
 #[test]

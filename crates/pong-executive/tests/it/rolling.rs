@@ -123,6 +123,36 @@ fn a_coin_rolls_on_its_rim() {
     assert!(wandered < 1e-3 * radius && leaned < 2e-3 && turned.abs() < 0.02);
 }
 
+/// A drum that stands over the rim of a plate of triangles, seen 20 times a second: it stays as it is if its middle is over
+/// the plate, and falls if it is past the rim.
+#[test]
+fn a_drum_stands_over_the_rim_of_a_plate() {
+    const K: f64 = 4e3;
+    let (mass, radius, half) = (10.0, 0.3, 0.15);
+    let drum = format!("Cylinder(name: \"d\", ends: ((0,0,{:?}),(0,0,{half:?})), radius: {radius:?})", -half);
+    let plate = plate_mesh("p", 3, 2.0, |x, y| Vec3::new(x, y, 0.0));
+    let across = mass * (3.0 * radius * radius + 4.0 * half * half) / 12.0;
+    let height = half - mass * G / K;
+    for (x, y) in [(0.95, 0.1), (-0.99, 0.2), (0.9, -0.95), (1.02, 0.1), (0.1, -1.05)] {
+        let start = Vec3::new(x, y, height);
+        let moments = [across, across, 0.5 * mass * radius * radius];
+        let body = RigidBody::free("drum", MassProperties::principal(mass, moments))
+            .at(Pose::new(start, [1.0, 0.0, 0.0, 0.0]));
+        let (mut simulation, drum) = on_ground(&drum, &plate, K, "None", body, 0.05);
+        simulation.set_gravity(Vec3::new(0.0, 0.0, -G));
+        let mut moved = 0.0_f64;
+        for _ in 0..60 {
+            simulation.step().unwrap();
+            moved = moved.max((simulation.pose(drum).position - start).norm());
+        }
+        println!("{x} {y}: moved {moved:.1e} m");
+        match x.abs().max(y.abs()) < 1.0 {
+            true => assert!(moved < 1e-9, "{x} {y}: moved {moved:e}"),
+            false => assert!(simulation.pose(drum).position.z < -1.0, "{x} {y}: moved {moved:e}"),
+        }
+    }
+}
+
 /// A cylinder around y, or around x, of the given half length and radius, m.
 fn log(name: &str, axis: &str, half: f64, radius: f64) -> String {
     let end = |at: f64| if axis == "y" { format!("(0,{at:?},0)") } else { format!("({at:?},0,0)") };

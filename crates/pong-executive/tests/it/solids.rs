@@ -173,7 +173,7 @@ fn equal_boxes_stacked_edge_on_edge_stand() {
 /// Random stacks of equal and unequal boxes whose centres of mass are supported: all rest.
 #[test]
 fn random_stacks_rest() {
-    let count = long_samples(80, 400);
+    let count = long_samples(40, 400);
     let mut random = Random::new(46, 0, 0);
     let mut fallen = Vec::new();
     for number in 0..count {

@@ -24,6 +24,7 @@ pub mod ellipsoid_triangle;
 pub mod ellipsoid_triangle_pairs;
 pub mod end_disc;
 pub mod frustum_solid;
+pub mod frustum_stand;
 mod highest_face;
 mod least_translation;
 pub mod line_segment_plane;

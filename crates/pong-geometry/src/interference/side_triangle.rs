@@ -9,23 +9,34 @@
 use super::Feature;
 use super::axis_triangle::{Axis, AxisPlace, Beside, REGION_SLACK, Reached, part_over_face, visit_ends};
 use super::end_disc::down;
+use super::frustum_stand::{Sector, Stand};
 use super::triangle_features::{EdgeClass, TriangleView, vertex_pushes};
 use super::two_capsules::non_positive;
 use crate::Vec3;
 use crate::primitive::{Capsule, Frustum, TriangleSet};
 
-/// Calls `visit` with the places at which a triangle may push the side of a body that is in front of it. `is_back` is
-/// true for the back of a two-sided triangle: the front has what both sides share. Faces give places at the end discs,
-/// too; edges and vertices give none there, because they touch the discs alone.
+/// Place or plane that a triangle has for a body beside it.
+#[derive(Clone, Copy, Debug)]
+pub enum Push<'a> {
+    /// Place between the discs at which it may push.
+    Place(&'a AxisPlace),
+    /// Plane that touches it, on which the body stores least beside others through the same feature, perhaps nothing.
+    Stand(&'a Stand),
+}
+
+/// Calls `visit` with the planes of a triangle and of its convex and free edges and vertices on which a body stores least,
+/// and with the places at which it may push the side of a body that is in front of it. `is_back` is true for the back of a
+/// two-sided triangle: the front has what both sides share. Faces give places at the end discs, too; edges and vertices
+/// give none there, because they touch the discs alone.
 ///
 /// # Errors
-/// [`Reached`] if the axis has reached the surface.
+/// [`Reached`] if the axis has reached the surface. Then some places are missing, but no planes.
 pub fn side_triangle(
     frustum: &Frustum,
     set: &TriangleSet,
     triangle: u32,
     is_back: bool,
-    visit: &mut dyn FnMut(&AxisPlace),
+    visit: &mut dyn FnMut(Push<'_>),
 ) -> Result<(), Reached> {
     let view = TriangleView::new(set, triangle);
     let heights = frustum.ends.each_ref().map(|end| view.height(end));
@@ -40,9 +51,13 @@ pub fn side_triangle(
     }
     let capsule = Capsule { ends: frustum.ends, radius: most };
     let axis = Axis::new(&capsule, &view.corners[0]);
+    let mut outcome = Ok(());
     if heights[0].max(heights[1]) > axis.slack {
-        over_face(&axis, (set, &view), &lowest, heights, visit)?;
+        let place = &mut |place: &AxisPlace| visit(Push::Place(place));
+        outcome = over_face(&axis, (set, &view), &lowest, heights, place);
     }
+    let face = Stand::new(frustum, &view.normal, &view.corners[0], Feature::face(triangle as usize));
+    visit(Push::Stand(&face));
     let may_push = set.triangles[triangle as usize].may_push;
     let least = if is_back { REGION_SLACK } else { -REGION_SLACK };
     for k in (0..3).filter(|&k| may_push.edge(k) && view.owns_edge(set, k)) {
@@ -53,46 +68,107 @@ pub fn side_triangle(
         let beside = |v: &Vec3| v - edge * edge.dot(v);
         let Some(near) = axis.near(beside(&(axis.start_b - start)), beside(&axis.along_b)) else { continue };
         let across = view.outward(k);
-        let other = match view.classify_edge(set, k) {
-            EdgeClass::Free => view.normal,
-            EdgeClass::Convex { outward, .. } => outward,
+        let (other, second) = match view.classify_edge(set, k) {
+            EdgeClass::Free => (view.normal, across),
+            EdgeClass::Convex { outward, normal, .. } => (outward, normal),
             EdgeClass::Silent { .. } => continue,
         };
+        let is_beside = |place: &Vec3| {
+            let place = edge.dot(&(place - start));
+            -axis.beyond <= place && place <= length + axis.beyond
+        };
+        let pushes = |normal: &Vec3| across.dot(normal) >= -REGION_SLACK && other.dot(normal) >= least;
+        let feature = Feature::edge(3 * triangle as usize + k);
         let away = near.away(near.nearest);
-        if away.dot(&(across + other)) <= 0.0 {
-            continue;
-        }
+        let is_before = away.dot(&(across + other)) > 0.0;
         let planes = Planes { frustum, arms: frustum.ends.map(|end| end - start), pivot: edge };
-        let Some(best) = planes.least(&away, &near) else { continue };
-        let lowest = Lowest::new(frustum, &best.normal_b);
-        let place = edge.dot(&(lowest.point(best.along) - start));
-        if place < -axis.beyond || place > length + axis.beyond {
-            continue;
+        let best = if is_before { planes.least(&away, &near) } else { None };
+        if let Some(best) = &best {
+            let lowest = Lowest::new(frustum, &best.normal_b);
+            if is_beside(&lowest.point(best.along)) && pushes(&best.normal_b) {
+                match lowest.is_before(best, &axis) {
+                    true => visit(Push::Place(&AxisPlace { feature, ..*best })),
+                    false => outcome = Err(Reached),
+                }
+            }
         }
-        if across.dot(&best.normal_b) >= -REGION_SLACK && other.dot(&best.normal_b) >= least {
-            lowest.check(&best, &axis)?;
-            visit(&AxisPlace { feature: Feature::edge(3 * triangle as usize + k), ..best });
+        let sector = Sector::new(&view.normal, &across, &second);
+        let on = |normal: &Vec3| Stand::new(frustum, normal, &start, feature);
+        let upright = [frustum.axis, -frustum.axis].map(|axis| on(&sector.nearest(&axis)));
+        let side = is_before.then(|| on(&sector.nearest(&away)));
+        let lying = best.map(|best| on(&best.normal_b)).filter(Stand::lies);
+        let lying = lying.map(|lying| (pushes(&lying.normal_b), lying));
+        let least = |stand: &Stand| stand.least_about_edge(frustum, &sector);
+        let found = least_stand((lying, side), upright, face.energy(), least);
+        for stand in found.into_iter().flatten() {
+            let is_clear = stand.energy() == 0.0;
+            if pushes(&stand.normal_b) && (is_clear || is_beside(&stand.middle_of_load(frustum))) {
+                visit(Push::Stand(&stand));
+            }
         }
     }
     for corner in (0..3).filter(|&corner| view.may_own_vertex(set, corner)) {
         let apex = view.corners[corner];
         let Some(near) = axis.near(axis.start_b - apex, axis.along_b) else { continue };
-        let arm = apex - frustum.ends[0];
-        let Some(side) = (arm - frustum.axis * frustum.axis.dot(&arm)).try_normalize(axis.slack) else {
-            return Err(Reached);
+        let feature = Feature::vertex(set.triangles[triangle as usize].vertices[corner] as usize);
+        let pushes = |normal: &Vec3, place: &Vec3| {
+            let mut in_front = |face: &TriangleView| face.height(place) >= least * axis.radius;
+            vertex_pushes(set, triangle, corner, normal, &mut in_front).is_some()
         };
-        let arms = frustum.ends.map(|end| end - apex);
-        let planes = Planes { frustum, arms, pivot: side.cross(&frustum.axis) };
-        let Some(best) = planes.least(&-frustum.wall_toward(&side), &near) else { continue };
-        let place = axis.start_b + axis.along_b * best.along;
-        let mut in_front = |face: &TriangleView| face.height(&place) >= least * axis.radius;
-        if vertex_pushes(set, triangle, corner, &best.normal_b, &mut in_front).is_some() {
-            Lowest::new(frustum, &best.normal_b).check(&best, &axis)?;
-            let vertex = set.triangles[triangle as usize].vertices[corner];
-            visit(&AxisPlace { feature: Feature::vertex(vertex as usize), ..best });
+        let arm = apex - frustum.ends[0];
+        let side = (arm - frustum.axis * frustum.axis.dot(&arm)).try_normalize(axis.slack);
+        let best = side.and_then(|side| {
+            let arms = frustum.ends.map(|end| end - apex);
+            let planes = Planes { frustum, arms, pivot: side.cross(&frustum.axis) };
+            planes.least(&-frustum.wall_toward(&side), &near)
+        });
+        if let Some(best) = &best {
+            let place = axis.start_b + axis.along_b * best.along;
+            if pushes(&best.normal_b, &place) {
+                match Lowest::new(frustum, &best.normal_b).is_before(best, &axis) {
+                    true => visit(Push::Place(&AxisPlace { feature, ..*best })),
+                    false => outcome = Err(Reached),
+                }
+            }
+        } else if side.is_none() {
+            outcome = Err(Reached);
+        }
+        let on = |normal: &Vec3| Stand::new(frustum, normal, &apex, feature);
+        let upright = [on(&frustum.axis), on(&-frustum.axis)];
+        let lying = best.map(|best| on(&best.normal_b)).filter(Stand::lies);
+        let side = side.map(|side| on(&-frustum.wall_toward(&side)));
+        let middle = axis.start_b + axis.along_b * 0.5;
+        let lying = lying.map(|lying| (pushes(&lying.normal_b, &middle), lying));
+        let least = |stand: &Stand| stand.least_about_point(frustum);
+        let found = least_stand((lying, side), upright, face.energy(), least);
+        for stand in found.into_iter().flatten() {
+            if pushes(&stand.normal_b, &middle) {
+                visit(Push::Stand(&stand));
+            }
         }
     }
-    Ok(())
+    outcome
+}
+
+/// Returns planes through an edge or a vertex on which a body stores less than on others beside them. `lying` is one that
+/// is known, on which both discs lie, with true if the feature pushes along it; `side` is where the search for another
+/// begins if there is none. `upright` are those on which the discs stand, from the lower of which another search begins,
+/// unless a plane is known that is surely lower than all beside it: this `lying` one, or that of the face, with its energy.
+/// Turned from there, a plane stores at least half as much as long as the middle of a disc is beside the feature.
+fn least_stand(
+    (lying, side): (Option<(bool, Stand)>, Option<Stand>),
+    upright: [Stand; 2],
+    on_face: f64,
+    least: impl Fn(&Stand) -> Stand,
+) -> [Option<Stand>; 2] {
+    let [one, other] = upright;
+    let upright = if other.energy() < one.energy() { other } else { one };
+    let stands = |known: f64| (0.5 * upright.energy() < known).then(|| least(&upright));
+    match lying {
+        Some((true, lying)) => [Some(lying), stands(lying.energy())],
+        Some((false, _)) => [None, stands(on_face)],
+        None => [side.map(|side| least(&side)), Some(least(&upright))],
+    }
 }
 
 /// Lowest places of the two discs of a frustum above a plane.
@@ -124,9 +200,9 @@ impl Lowest {
         self.thickness[0] * (1.0 - along) + self.thickness[1] * along
     }
 
-    /// Returns [`Reached`] if the axis has sunk to the edge or vertex of a place.
-    fn check(&self, place: &AxisPlace, axis: &Axis) -> Result<(), Reached> {
-        if self.thickness(place.along) - place.depth <= axis.slack { Err(Reached) } else { Ok(()) }
+    /// Returns false if the axis has sunk to the edge or vertex of a place.
+    fn is_before(&self, place: &AxisPlace, axis: &Axis) -> bool {
+        self.thickness(place.along) - place.depth > axis.slack
     }
 }
 

@@ -124,12 +124,12 @@ struct Tally {
     normal: f64,
 }
 
-/// Compares random ellipsoids with the reference: `cases` of them in a run of the night, a quarter in a full one.
+/// Compares random ellipsoids with the reference: `cases` of them in a run of the night, an eighth in a full one.
 fn compare(p: &Polyhedron, semi_axes: Vec3, reach: f64, cases: usize, seed: u64) -> Tally {
     let reference = Reference::new(1500);
     let mut random = Random(seed);
     let mut tally = Tally::default();
-    for case in 0..long_samples(cases / 4, cases) {
+    for case in 0..long_samples(cases / 8, cases) {
         let e = random_ellipsoid(&mut random, semi_axes, reach);
         let (least, n) = reference.least(&e, p, &mut random);
         let Some(contact) = ellipsoid_polyhedron(&e, p) else {

@@ -10,7 +10,7 @@ use pong_geometry::interference::ray_bore::ray_bore;
 use pong_geometry::interference::two_ended_bore::{EndsInBore, capsule_bore, cylinder_bore, segment_bore};
 use pong_geometry::primitive::{Bore, Capsule, Frustum, LineSegment, Ray, RayResponse};
 use pong_geometry::{Quat, Transform, Vec3};
-use pong_testkit::Random;
+use pong_testkit::{Random, long_samples};
 use std::f64::consts::TAU;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -452,7 +452,8 @@ fn a_tip_that_leans_into_the_wall_is_pushed_by_the_wall() {
 fn rods_pass_mouths_without_a_jump() {
     let mut random = Random::new(7, 0, 0);
     let (mut touched, mut jumps) = (0, 0);
-    for case in 0..150 {
+    let cases = long_samples(45, 150);
+    for case in 0..cases {
         let bore = straight_hole(0.2, 1.0);
         let kind = [Kind::Segment, Kind::Capsule, Kind::Cylinder][case % 3];
         let radius = if kind == Kind::Segment { 0.0 } else { 0.05 };
@@ -476,7 +477,7 @@ fn rods_pass_mouths_without_a_jump() {
         let jump = energies.windows(2).map(|pair| (pair[1] - pair[0]).abs()).fold(0.0, f64::max);
         jumps += usize::from(jump > 1e-3 * most);
     }
-    assert!(touched > 140 && jumps == 0, "{jumps} of {touched}");
+    assert!(touched * 15 > cases * 14 && jumps == 0, "{jumps} of {touched}");
 }
 
 /// The energy is continuous while rods are pulled out of the hole, however deep in the wall: at the end their

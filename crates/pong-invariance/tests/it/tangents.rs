@@ -7,7 +7,7 @@ use pong_invariance::{Order, Survey};
 fn scenes() -> u64 {
     match std::env::var("PONG_TESTS").as_deref() {
         Ok("night") => 30_000,
-        Ok("full") => 200,
+        Ok("full") => 130,
         _ => 40,
     }
 }

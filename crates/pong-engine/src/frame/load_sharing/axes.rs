@@ -6,12 +6,16 @@ use crate::frame::input::PairContext;
 use crate::frame::narrow_phase::candidate::{CandidateStatus, ContactCandidate};
 use crate::frame::narrow_phase::element_pair::{BETWEEN_DISCS, BETWEEN_ENDS};
 use crate::frame::narrow_phase::nearest_side::{Nearby, visit_triangles};
+use crate::frame::narrow_phase::on_triangle::thickness_for_disc;
 use crate::state::{ContactKey, ContactRole};
 use pong_arena::{Arena, Full, List};
 use pong_geometry::Vec3;
-use pong_geometry::interference::FeatureKind;
+use pong_geometry::distance::Solid;
 use pong_geometry::interference::axis_triangle::{AxisLine, AxisPlace, Reached, axis_triangle};
-use pong_geometry::interference::side_triangle::{Lowest, side_triangle};
+use pong_geometry::interference::end_disc::EndDisc;
+use pong_geometry::interference::frustum_stand::Stand;
+use pong_geometry::interference::side_triangle::{Lowest, Push, side_triangle};
+use pong_geometry::interference::{Feature, FeatureKind};
 use pong_geometry::primitive::{Capsule, Frustum, PrimitiveKind, TriangleSet};
 use pong_model::Item;
 
@@ -26,6 +30,10 @@ const APART_COSINE: f64 = -1e-14;
 const BEHIND_SLACK: f64 = 1e-9;
 /// Difference of two unit normals up to which two faces count as one plane.
 const PLANE_SLACK: f64 = 1e-7;
+/// Most planes through triangles, edges and vertices beside one cylinder or cone.
+const STANDS: usize = 2048;
+/// Part of an energy, far above rounding, by which one plane must be better than another.
+const TIE: f64 = 1.0 - 1e-12;
 
 /// Contacts that carry load where no tester found one: at most two for each place that carries load.
 pub(super) type Added = [Option<ContactCandidate>; 2 * SIZE];
@@ -37,14 +45,15 @@ pub(super) enum Touch {
     Apart,
     /// All of the surface is before the ends.
     InFront,
-    /// An end disc is behind some face, as that of a drum beside the end of a block that it lies on.
-    Beside,
+    /// An end disc is behind some face: it stands on it, or the body lies on a block with its flat end beside that of the
+    /// block.
+    Behind,
 }
 
 impl Touch {
     /// Judges the contacts of the ends and those between them. The ends of a capsule, and of a cylinder or a cone, yield as
     /// one if an edge is beside the axis; otherwise only faces push, and each end yields for itself. They do not where an
-    /// end is behind the surface, came from behind, or stands on it.
+    /// end came from behind, or where the ball of a capsule is behind the surface.
     pub fn new(ends: &[ContactCandidate], middle: &[ContactCandidate], is_disc: bool) -> Self {
         let on_triangles = middle.first().is_some_and(|contact| contact.kind_b == PrimitiveKind::Triangle);
         if !on_triangles || !middle.iter().any(ContactCandidate::takes_part) {
@@ -57,10 +66,10 @@ impl Touch {
             if contact.role == ContactRole::Active && !is_behind {
                 continue;
             }
-            if !is_disc || contact.key.end >= BETWEEN_ENDS || contact.role == ContactRole::WrongSide {
+            if !is_disc || contact.role == ContactRole::WrongSide {
                 return Self::Apart;
             }
-            touch = Self::Beside;
+            touch = Self::Behind;
         }
         touch
     }
@@ -84,13 +93,31 @@ pub(super) fn share(
     let body = Body::new(context, &any);
     scratch.reset();
     let scratch = &*scratch;
-    let mut bar = Bar { body: &body, places: scratch.list(PLACES)?, items: scratch.list(PLACES)? };
-    if bar.find_places(context, any.key.shell_b)?.is_err() {
-        return Ok(false);
-    }
-    bar.add_touched(ends)?;
-    if !bar.keep_one_plane(&context.body_b.triangles) && touch == Touch::Beside {
-        return Ok(false);
+    let mut bar = Bar {
+        body: &body,
+        places: scratch.list(PLACES)?,
+        items: scratch.list(PLACES)?,
+        stands: scratch.list(STANDS)?,
+        near: scratch.list(STANDS)?,
+    };
+    let in_front = bar.find_places(context, any.key.shell_b)?;
+    match &body {
+        Body::Capsule(_) if in_front.is_err() => return Ok(false),
+        Body::Capsule(capsule) => bar.keep_one_plane(&context.body_b.triangles, capsule),
+        Body::Frustum(frustum) => {
+            bar.add_touched(ends)?;
+            let is_held = ends.iter().any(ContactCandidate::takes_part);
+            let on_one = bar.one_stand(&context.body_b.triangles, frustum);
+            match on_one.filter(|(stand, item)| is_before(context, frustum, (stand, *item), is_held)) {
+                Some((stand, _)) if in_front.is_ok() && stand.lies() && bar.keep_on(&stand) => {}
+                Some(on_one) => {
+                    write_stand(frustum, on_one, (ends, middle), (&any, added));
+                    return Ok(true);
+                }
+                None if in_front.is_err() || touch == Touch::Behind => return Ok(false),
+                None => {}
+            }
+        }
     }
     let [one, other] = body.ends();
     let rounding = ROUNDING * (one.amax() + other.amax());
@@ -99,6 +126,74 @@ pub(super) fn share(
     };
     bar.write(&loaded, (ends, middle), (&any, added));
     Ok(true)
+}
+
+/// Returns true if a body is in front of a plane on which it is to stand: the middle of its axis is, or one of its discs is
+/// held already (`is_held`). A disc wholly below the plane may have its centre so far below as a disc alone on a triangle.
+fn is_before(
+    context: &PairContext<'_>,
+    frustum: &Frustum,
+    (stand, item): (&Stand, Item),
+    is_held: bool,
+) -> bool {
+    let below = frustum.ends.map(|end| stand.normal_b.dot(&(stand.point_b - end)));
+    let is_sunk = [0, 1].map(|end| stand.depths[end + 2] > 0.0);
+    let may_be_below = |end: usize| {
+        !is_sunk[end] || below[end] < thickness_for_disc(context, item, &EndDisc { frustum, end })
+    };
+    (below[0] + below[1] < 0.0 || is_held && (is_sunk[0] || is_sunk[1])) && may_be_below(0) && may_be_below(1)
+}
+
+/// Writes the contacts of a body that stands on one plane, at its lowest and highest places, each with half a spring.
+fn write_stand(
+    frustum: &Frustum,
+    (stand, item): (Stand, Item),
+    (ends, middle): (&mut [ContactCandidate], &mut [ContactCandidate]),
+    (any, added): (&ContactCandidate, &mut Added),
+) {
+    ends.iter_mut().filter(|contact| contact.takes_part()).for_each(|contact| contact.weight = 0.0);
+    middle.iter_mut().for_each(|contact| contact.status = CandidateStatus::Culled);
+    let places = stand.places(frustum);
+    for (index, deepest_b) in places.into_iter().enumerate().filter(|(index, _)| stand.depths[*index] > 0.0) {
+        let key = ContactKey { end: index as u32, ..any.key };
+        let same = |contact: &&mut ContactCandidate| {
+            let is_there = match stand.feature.kind() {
+                FeatureKind::Face => {
+                    contact.feature.is_face() && is_one_plane(&contact.normal_b, &stand.normal_b)
+                }
+                FeatureKind::Edge | FeatureKind::Vertex => contact.feature == stand.feature,
+            };
+            contact.takes_part() && contact.key == key && is_there
+        };
+        let contact = match ends.iter_mut().find(same) {
+            Some(contact) => contact,
+            None => added[index].insert(fresh(any, key, item, stand.feature)),
+        };
+        (contact.normal_b, contact.depth, contact.deepest_b) =
+            (stand.normal_b, stand.depths[index], deepest_b);
+        (contact.weight, contact.status) = (1.0, CandidateStatus::Front);
+    }
+}
+
+/// Contact with half a spring where no tester found one; place and load are not set.
+fn fresh(any: &ContactCandidate, key: ContactKey, item: Item, feature: Feature) -> ContactCandidate {
+    ContactCandidate {
+        key,
+        primitive_b: item.primitive,
+        element_a: any.element_a,
+        element_b: item.element,
+        feature,
+        kind_b: PrimitiveKind::Triangle,
+        lane: any.lane,
+        half: true,
+        shares: true,
+        weight: 0.0,
+        ..ContactCandidate::NOTHING
+    }
+}
+
+fn is_one_plane(one: &Vec3, other: &Vec3) -> bool {
+    (one - other).norm() <= PLANE_SLACK
 }
 
 /// A body with two ends, in B's frame.
@@ -140,24 +235,6 @@ impl Body {
         one * (1.0 - along) + other * along
     }
 
-    /// Depths of the two ends below the plane of a place, m.
-    fn depths(&self, place: &AxisPlace) -> [f64; 2] {
-        let below = match self {
-            Self::Capsule(Capsule { ends, .. }) => *ends,
-            Self::Frustum(frustum) => Lowest::new(frustum, &place.normal_b).points_b,
-        };
-        let rise = -place.normal_b.dot(&(below[1] - below[0]));
-        [0.0, 1.0].map(|end| place.depth + rise * (end - place.along))
-    }
-
-    /// Height of the axis above the lowest place of the body, along the normal of a place, m.
-    fn thickness(&self, normal: &Vec3, along: f64) -> f64 {
-        match self {
-            Self::Capsule(capsule) => capsule.radius,
-            Self::Frustum(frustum) => Lowest::new(frustum, normal).thickness(along),
-        }
-    }
-
     fn deepest(&self, normal: &Vec3, along: f64) -> Vec3 {
         match self {
             Self::Capsule(capsule) => self.at(along) - normal * capsule.radius,
@@ -172,6 +249,10 @@ struct Bar<'a> {
     places: List<'a, AxisPlace>,
     /// Where the places come from.
     items: List<'a, Source>,
+    /// Planes that touch a triangle, and the triangle; for a cylinder or a cone alone.
+    stands: List<'a, (Stand, Item)>,
+    /// Triangles beside a cylinder or a cone.
+    near: List<'a, Item>,
 }
 
 /// Origin of a place.
@@ -191,7 +272,7 @@ impl Bar<'_> {
         let reach = Vec3::repeat(around.radius);
         let body = context.body_b;
         let line = AxisLine::new(&around);
-        let (mut room, mut in_front) = (Ok(()), Ok(()));
+        let (mut room, mut stood, mut in_front) = (Ok(()), Ok(()), Ok(()));
         visit_triangles(body, &(one.inf(other) - reach), &(one.sup(other) + reach), &mut |item| {
             let set = &body.triangles;
             if set.triangles[item.element as usize].shell != shell || line.misses(&set.corners(item.element))
@@ -205,12 +286,20 @@ impl Bar<'_> {
             };
             let found = match self.body {
                 Body::Capsule(capsule) => axis_triangle(capsule, set, item.element, is_back, visit),
-                Body::Frustum(frustum) => side_triangle(frustum, set, item.element, is_back, visit),
+                Body::Frustum(frustum) => {
+                    let mut room = self.near.push(item);
+                    let found = side_triangle(frustum, set, item.element, is_back, &mut |push| match push {
+                        Push::Place(place) => visit(place),
+                        Push::Stand(stand) => room = room.and(self.stands.push((*stand, item))),
+                    });
+                    stood = stood.and(room);
+                    found
+                }
             };
             in_front = in_front.and(found);
         });
         self.sort();
-        room.map(|()| in_front)
+        room.and(stood).map(|()| in_front)
     }
 
     /// Sorts the places by triangle: of equal ones the first pushes, in whatever order the bounding volumes gave them.
@@ -224,6 +313,14 @@ impl Bar<'_> {
                 to -= 1;
             }
         }
+        let key = |(_, item): &(Stand, Item)| (item.primitive, item.element);
+        for index in 1..self.stands.len() {
+            let mut to = index;
+            while to > 0 && key(&self.stands[to - 1]) > key(&self.stands[to]) {
+                self.stands.swap(to - 1, to);
+                to -= 1;
+            }
+        }
     }
 
     /// Adds what touches the discs, in place of the faces that were found there, too. What touches an edge or a vertex
@@ -232,7 +329,8 @@ impl Bar<'_> {
         if let Body::Capsule(_) = self.body {
             return Ok(());
         }
-        for (index, contact) in ends.iter().enumerate().filter(|(_, contact)| contact.takes_part()) {
+        let is_low = |contact: &ContactCandidate| contact.takes_part() && contact.key.end < BETWEEN_ENDS;
+        for (index, contact) in ends.iter().enumerate().filter(|(_, contact)| is_low(contact)) {
             let along = f64::from(contact.key.end);
             let item = Item { primitive: contact.primitive_b, element: contact.element_b };
             let is_same = |place: &AxisPlace| {
@@ -256,57 +354,92 @@ impl Bar<'_> {
         Ok(())
     }
 
-    /// Drops all places but those on one plane that has all triangles of the places behind it, if there is one. They are
-    /// convex then: what is clear of the plane is clear of them, and the other places say nothing new. Deep in the
-    /// surface their normals would ask for more. Returns false if there is no such plane, or if the axis of a cylinder
-    /// or a cone has sunk through it.
-    fn keep_one_plane(&mut self, set: &TriangleSet) -> bool {
-        let Some(best) = self.one_plane(set) else { return false };
+    /// Drops all places of a capsule but those on one plane that has all triangles of the places behind it, if there is one:
+    /// that on which the capsule stores most. They are convex then: what is clear of the plane is clear of them, and the
+    /// other places say nothing new. Deep in the surface their normals would ask for more.
+    fn keep_one_plane(&mut self, set: &TriangleSet, capsule: &Capsule) {
+        let axis = capsule.ends[1] - capsule.ends[0];
+        let most = self.places.iter().map(|place| (place.greatest_square(&axis), *place));
+        let Some((_, best)) = most.reduce(|a, b| if b.0 > a.0 { b } else { a }) else { return };
+        let height = (capsule.radius - best.depth) - BEHIND_SLACK * capsule.radius;
+        let center = self.body.at(best.along);
+        let is_behind = |corner: Vec3| best.normal_b.dot(&(center - corner)) >= height;
+        if self.items.iter().all(|source| set.corners(source.item.element).into_iter().all(is_behind)) {
+            self.keep(best.feature, &best.normal_b);
+        }
+    }
+
+    /// Drops all places that are not on the plane on which a body stands. Returns false, with nothing dropped, if none is.
+    fn keep_on(&mut self, stand: &Stand) -> bool {
+        self.keep(stand.feature, &stand.normal_b)
+    }
+
+    fn keep(&mut self, feature: Feature, normal_b: &Vec3) -> bool {
+        let is_kept = |place: &AxisPlace| match feature.kind() {
+            FeatureKind::Face => is_one_plane(&place.normal_b, normal_b),
+            FeatureKind::Edge | FeatureKind::Vertex => place.feature == feature,
+        };
+        if !self.places.iter().any(is_kept) {
+            return false;
+        }
         let mut kept = 0;
         for index in 0..self.places.len() {
-            let place = self.places[index];
-            let is_on_plane = match best.feature.kind() {
-                FeatureKind::Face => (place.normal_b - best.normal_b).norm() <= PLANE_SLACK,
-                FeatureKind::Edge | FeatureKind::Vertex => place.feature == best.feature,
-            };
-            if is_on_plane {
-                (self.places[kept], self.items[kept]) = (place, self.items[index]);
+            if is_kept(&self.places[index]) {
+                (self.places[kept], self.items[kept]) = (self.places[index], self.items[index]);
                 kept += 1;
             }
         }
         self.places.truncate(kept);
         self.items.truncate(kept);
-        let is_above =
-            |end: usize, depth: f64| depth <= 0.0 || depth < self.body.thickness(&best.normal_b, end as f64);
-        let depths = self.body.depths(&best);
-        depths.into_iter().enumerate().all(|(end, depth)| is_above(end, depth))
+        true
     }
 
-    /// Returns a place on the plane that has all triangles of the places behind it. A capsule is pushed to the plane on
-    /// which it stores most in the places found, a disc, which may have several ways out of a solid, to that of the least.
-    fn one_plane(&self, set: &TriangleSet) -> Option<AxisPlace> {
-        let has_all_behind = |place: &AxisPlace| {
-            let slack = BEHIND_SLACK * self.body.around().radius;
-            let height = (self.body.thickness(&place.normal_b, place.along) - place.depth) - slack;
-            let center = self.body.at(place.along);
-            let is_behind = |corner: Vec3| place.normal_b.dot(&(center - corner)) >= height;
-            self.items.iter().all(|source| set.corners(source.item.element).into_iter().all(is_behind))
+    /// Returns the plane on which a cylinder or a cone stores least, of those that have all triangles that it touches behind
+    /// them. They are convex then, and a body that is clear of the plane is clear of them. One that stores nothing tells that
+    /// the body touches none.
+    fn one_stand(&self, set: &TriangleSet, frustum: &Frustum) -> Option<(Stand, Item)> {
+        /// Planes that are tried, from that of the least energy.
+        const TRIES: usize = 64;
+        let slack = BEHIND_SLACK * self.body.around().radius;
+        let is_behind = |stand: &Stand, item: &Item| {
+            let is_behind = |corner: Vec3| stand.normal_b.dot(&(corner - stand.point_b)) <= slack;
+            set.corners(item.element).into_iter().all(is_behind)
         };
-        if let Body::Capsule(Capsule { ends, .. }) = self.body {
-            let axis = ends[1] - ends[0];
-            let most = self.places.iter().map(|place| (place.greatest_square(&axis), *place));
-            let (_, best) = most.reduce(|a, b| if b.0 > a.0 { b } else { a })?;
-            return has_all_behind(&best).then_some(best);
-        }
-        let mut least: Option<(f64, AxisPlace)> = None;
-        for place in self.places.iter() {
-            let stored: f64 =
-                self.body.depths(place).map(|depth| depth.max(0.0)).iter().map(|depth| depth * depth).sum();
-            if least.is_none_or(|(least, _)| stored < least) && has_all_behind(place) {
-                least = Some((stored, *place));
+        let solid = Solid::frustum(frustum);
+        let is_touched = |item: &Item| {
+            self.items.iter().any(|source| source.item == *item)
+                || solid.to_within(&Solid::triangle(set.corners(item.element)), 0.0).is_some()
+        };
+        let mut tried = (-1.0, None);
+        // Triangle that was in front of a plane, which likely is in front of the next.
+        let mut in_front: Option<Item> = None;
+        for _ in 0..TRIES {
+            let mut best: Option<(f64, usize)> = None;
+            for (index, (stand, _)) in self.stands.iter().enumerate() {
+                let energy = stand.energy();
+                let is_next = (energy, Some(index)) > tried;
+                // Of planes that differ by rounding the first counts.
+                if is_next && best.is_none_or(|(least, _)| energy < least * TIE) {
+                    best = Some((energy, index));
+                }
+            }
+            let (energy, index) = best?;
+            tried = (energy, Some(index));
+            let (stand, _) = &self.stands[index];
+            if in_front.is_some_and(|item| !is_behind(stand, &item)) {
+                continue;
+            }
+            in_front = self.near.iter().find(|item| !is_behind(stand, item) && is_touched(item)).copied();
+            if in_front.is_none() {
+                let (mut stand, item) = self.stands[index];
+                // Two that are apart may have a plane that stores something as the least that was found.
+                if !is_touched(&item) && !self.near.iter().any(is_touched) {
+                    stand.depths = [0.0; 4];
+                }
+                return Some((stand, item));
             }
         }
-        least.map(|(_, place)| place)
+        None
     }
 
     /// Returns true if no two places that carry load, and that share an end, are more than 90° apart.
@@ -345,19 +478,7 @@ impl Bar<'_> {
                     contact.takes_part() && (contact.key, contact.feature) == (key, place.feature)
                 };
                 let found = ends.iter_mut().chain(&mut *middle).chain(added.iter_mut().flatten()).find(same);
-                let fresh = ContactCandidate {
-                    key,
-                    primitive_b: item.primitive,
-                    element_a: any.element_a,
-                    element_b: item.element,
-                    feature: place.feature,
-                    kind_b: PrimitiveKind::Triangle,
-                    lane: any.lane,
-                    half: true,
-                    shares: true,
-                    weight: 0.0,
-                    ..ContactCandidate::NOTHING
-                };
+                let fresh = fresh(any, key, *item, place.feature);
                 let contact = match found {
                     Some(contact) => contact,
                     None => added.iter_mut().find(|slot| slot.is_none()).expect("two a place").insert(fresh),

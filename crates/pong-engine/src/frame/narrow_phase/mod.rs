@@ -25,7 +25,7 @@
 pub(crate) mod candidate;
 pub(crate) mod element_pair;
 pub(crate) mod nearest_side;
-mod on_triangle;
+pub(crate) mod on_triangle;
 pub(crate) mod pair_table;
 mod registered;
 mod side_of_bore;
