@@ -16,13 +16,12 @@
 //!
 //! A walk from feature to feature, on which F falls, ends at one of these.
 
-use super::end_disc::UPRIGHT;
-use super::least_translation::Local;
+use super::frustum_plane::{OnPlane, place, size_of};
 use super::{Feature, FeatureKind, Interference};
 use crate::distance::Solid;
 use crate::primitive::{EdgePush, EightBoxes, Frustum, PlaneBlock, Polyhedron, PolyhedronEdge};
 use crate::simd::{LANES, LaneBits, Simd, Splat, run_at_level};
-use crate::{Transform, Vec3, any_perpendicular, divisor};
+use crate::{Transform, Vec3, divisor};
 
 /// Contacts at the lowest places of discs 0 and 1, then at the highest ones.
 pub type PlaceContacts = [Option<Interference>; 4];
@@ -31,30 +30,18 @@ pub type PlaceContacts = [Option<Interference>; 4];
 pub fn frustum_solid(frustum: &Frustum, polyhedron: &Polyhedron) -> PlaceContacts {
     let body = Body::new(frustum, polyhedron);
     let Some(Stand { normal_b, feature, at }) = body.least() else { return [None; 4] };
-    if !polyhedron.contains(&body.middle_of_load(&at)) {
+    if !polyhedron.contains(&at.middle_of_load(frustum)) {
         // The plane may have missed that the two are apart.
         let other = Solid::polyhedron(polyhedron, &Transform::identity());
         if Solid::frustum(frustum).to_within(&other, 0.0).is_none() {
             return [None; 4];
         }
     }
-    let [_, up] = body.directions(&at);
+    let [_, up] = at.directions(frustum);
     [0, 1, 2, 3].map(|index| {
-        let (depth, deepest_b) = (at.depths[index], body.place(&up, index));
+        let (depth, deepest_b) = (at.depths[index], place(frustum, &up, index));
         (depth > 0.0).then_some(Interference { depth, normal_b, deepest_b, feature })
     })
-}
-
-/// A on a plane.
-#[derive(Clone, Copy)]
-struct OnPlane {
-    /// F, m².
-    energy: f64,
-    /// Depths of the four places below the plane, m; 0 above it.
-    depths: [f64; 4],
-    /// Product of the normal and the axis, across both, and its length, the sine of the angle between them.
-    level: Vec3,
-    sine: f64,
 }
 
 /// A plane that touches B.
@@ -87,43 +74,14 @@ const TIE: f64 = 1.0 - 1e-12;
 
 impl<'a> Body<'a> {
     fn new(frustum: &'a Frustum, polyhedron: &'a Polyhedron) -> Self {
-        let Frustum { ends, radii, .. } = frustum;
-        let size = ends[0].amax().max(ends[1].amax()) + radii[0].max(radii[1]);
-        Self { frustum, polyhedron, size }
+        Self { frustum, polyhedron, size: size_of(frustum) }
     }
 
     /// Returns A on the plane with a normal that is `top` from the origin, m.
     #[inline]
     fn on_plane(&self, normal: &Vec3, top: f64) -> OnPlane {
-        let Frustum { ends, radii, axis, .. } = self.frustum;
-        let level = normal.cross(axis);
-        let sine = level.norm();
-        let middles = [top - normal.dot(&ends[0]), top - normal.dot(&ends[1])];
-        let low = |end: usize| (middles[end] + radii[end] * sine).max(0.0);
-        // An apex is one place.
-        let high =
-            |end: usize| if radii[end] > 0.0 { (middles[end] - radii[end] * sine).max(0.0) } else { 0.0 };
-        let depths = [low(0), low(1), high(0), high(1)];
-        let square = |index: usize| depths[index] * depths[index];
-        OnPlane { energy: (square(0) + square(1)) + (square(2) + square(3)), depths, level, sine }
-    }
-
-    /// Returns the unit vectors across the axis that are level, and towards the normal.
-    #[inline]
-    fn directions(&self, at: &OnPlane) -> [Vec3; 2] {
-        let axis = &self.frustum.axis;
-        let around = match at.sine > UPRIGHT {
-            true => at.level / at.sine.max(f64::MIN_POSITIVE),
-            false => any_perpendicular(axis),
-        };
-        [around, axis.cross(&around)]
-    }
-
-    /// Returns a place of A, the lowest ones of discs 0 and 1, then the highest.
-    #[inline]
-    fn place(&self, up: &Vec3, index: usize) -> Vec3 {
-        let radius = self.frustum.radii[index % 2];
-        self.frustum.ends[index % 2] + up * if index < 2 { -radius } else { radius }
+        let ends = &self.frustum.ends;
+        OnPlane::new(self.frustum, normal, [top - normal.dot(&ends[0]), top - normal.dot(&ends[1])])
     }
 
     /// Rounding of a place, m.
@@ -141,55 +99,22 @@ impl<'a> Body<'a> {
         self.polyhedron.vertices[index as usize].position
     }
 
-    fn middle_of_load(&self, at: &OnPlane) -> Vec3 {
-        let [_, up] = self.directions(at);
-        let load: f64 = at.depths.iter().sum();
-        let sum: Vec3 = (0..4).map(|index| self.place(&up, index) * at.depths[index]).sum();
-        sum / load.max(f64::MIN_POSITIVE)
-    }
-
-    /// Returns F, and the derivatives of half of it when the plane turns about a vertex.
-    fn about(&self, vertex: &Vec3, normal: &Vec3, at: &OnPlane) -> Local {
-        let [around, up] = self.directions(at);
-        let mut slope = Vec3::zeros();
-        let mut bend = around * around.transpose() * (self.turning(at, 0) + self.turning(at, 1));
-        for index in (0..4).filter(|&index| at.depths[index] > 0.0) {
-            let arm = vertex - self.place(&up, index);
-            slope += arm * at.depths[index];
-            bend += arm * arm.transpose();
-        }
-        let slope_b = slope - normal * normal.dot(&slope);
-        Local { value: at.energy, slope_b, bend, less: at.energy, size: at.energy.sqrt() * self.size }
-    }
-
-    /// Returns the same when the plane turns about an edge: the slope, the curvature, and the size of the terms. `across` is
+    /// Returns the derivatives of half of F when the plane turns about an edge: the slope, the curvature, and the size of the terms. `across` is
     /// the direction in which the normal turns. Where √F bends upward, its curvature counts, times √F: with it Newton's
     /// steps are right from farther away.
     fn beside(&self, vertex: &Vec3, across: &Vec3, at: &OnPlane) -> (f64, f64, f64) {
-        let [around, up] = self.directions(at);
+        let [around, up] = at.directions(self.frustum);
         let turns = across.dot(&around);
         let mut slope = 0.0;
-        let mut bend = turns * turns * (self.turning(at, 0) + self.turning(at, 1));
+        let mut bend = turns * turns * at.turning(self.frustum);
         for index in (0..4).filter(|&index| at.depths[index] > 0.0) {
-            let arm = across.dot(&(vertex - self.place(&up, index)));
+            let arm = across.dot(&(vertex - place(self.frustum, &up, index)));
             slope += arm * at.depths[index];
             bend += arm * arm;
         }
         bend -= at.energy;
         let of_root = bend - slope * slope / at.energy.max(f64::MIN_POSITIVE);
         (slope, if of_root > 0.25 * bend { of_root } else { bend }, at.energy.sqrt() * self.size)
-    }
-
-    /// Returns the sum of depth times second derivative of the height, m², of the places of a disc, if the plane turns
-    /// about the direction that is level. The height of the lowest place bends by R/s, with s the sine of the tilt, that of
-    /// the highest by −R/s, and while both push, their depths differ by 2R·s.
-    #[inline]
-    fn turning(&self, at: &OnPlane, disc: usize) -> f64 {
-        let radius = self.frustum.radii[disc];
-        match at.depths[disc + 2] > 0.0 {
-            true => 2.0 * radius * radius,
-            false => (at.depths[disc] * radius / at.sine.max(UPRIGHT)).min(2.0 * radius * radius),
-        }
     }
 
     /// Returns the plane of the least energy; `None` if one stores none.
@@ -329,7 +254,7 @@ impl<'a> Body<'a> {
 
     /// Returns the edge past which the load of a face hangs over most.
     fn off_face(&self, stand: &Stand) -> Option<Feature> {
-        let middle = self.middle_of_load(&stand.at);
+        let middle = stand.at.middle_of_load(self.frustum);
         let mut most = (self.rounding(), None);
         for rim in self.polyhedron.rim(stand.feature.index()) {
             let over = rim.outward.dot(&(middle - rim.anchor));
@@ -409,7 +334,7 @@ impl<'a> Body<'a> {
                 (stand.normal_b, stand.at, here) = (next, at, there);
             }
         }
-        let at = edge.direction.dot(&(self.middle_of_load(&stand.at) - point));
+        let at = edge.direction.dot(&(stand.at.middle_of_load(self.frustum) - point));
         let length = edge.direction.dot(&(self.vertex(edge.vertices[1]) - point));
         match () {
             () if at < -self.rounding() => Some(Feature::vertex(edge.vertices[0] as usize)),
@@ -425,7 +350,7 @@ impl<'a> Body<'a> {
         let vertex = stand.feature.index();
         let point = self.vertex(vertex as u32);
         let (mut damping, mut last) = (0.0, Vec3::zeros());
-        let mut here = self.about(&point, &stand.normal_b, &stand.at);
+        let mut here = stand.at.about((self.frustum, self.size), &point, &stand.normal_b);
         for _ in 0..STEPS {
             let size = here.size;
             if here.value <= 0.0 || here.slope_b.norm() <= f64::EPSILON * size {
@@ -451,7 +376,7 @@ impl<'a> Body<'a> {
             }
             let next = (stand.normal_b + step * part).normalize();
             let at = self.on_plane(&next, next.dot(&point));
-            let there = self.about(&point, &next, &at);
+            let there = at.about((self.frustum, self.size), &point, &next);
             let noise = ROUNDING * size;
             // Newton's next step from here would be rounding.
             if crossed.is_none() && length * size <= CLOSE * here.value {

@@ -23,6 +23,7 @@ pub mod ellipsoid_round;
 pub mod ellipsoid_triangle;
 pub mod ellipsoid_triangle_pairs;
 pub mod end_disc;
+pub mod frustum_plane;
 pub mod frustum_solid;
 pub mod frustum_stand;
 mod highest_face;

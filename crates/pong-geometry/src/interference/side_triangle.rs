@@ -99,10 +99,10 @@ pub fn side_triangle(
         let lying = best.map(|best| on(&best.normal_b)).filter(Stand::lies);
         let lying = lying.map(|lying| (pushes(&lying.normal_b), lying));
         let least = |stand: &Stand| stand.least_about_edge(frustum, &sector);
-        let found = least_stand((lying, side), upright, face.energy(), least);
+        let found = least_stand((lying, side), upright, face.at.energy, least);
         for stand in found.into_iter().flatten() {
-            let is_clear = stand.energy() == 0.0;
-            if pushes(&stand.normal_b) && (is_clear || is_beside(&stand.middle_of_load(frustum))) {
+            let is_clear = stand.at.energy == 0.0;
+            if pushes(&stand.normal_b) && (is_clear || is_beside(&stand.at.middle_of_load(frustum))) {
                 visit(Push::Stand(&stand));
             }
         }
@@ -140,7 +140,7 @@ pub fn side_triangle(
         let middle = axis.start_b + axis.along_b * 0.5;
         let lying = lying.map(|lying| (pushes(&lying.normal_b, &middle), lying));
         let least = |stand: &Stand| stand.least_about_point(frustum);
-        let found = least_stand((lying, side), upright, face.energy(), least);
+        let found = least_stand((lying, side), upright, face.at.energy, least);
         for stand in found.into_iter().flatten() {
             if pushes(&stand.normal_b, &middle) {
                 visit(Push::Stand(&stand));
@@ -162,10 +162,10 @@ fn least_stand(
     least: impl Fn(&Stand) -> Stand,
 ) -> [Option<Stand>; 2] {
     let [one, other] = upright;
-    let upright = if other.energy() < one.energy() { other } else { one };
-    let stands = |known: f64| (0.5 * upright.energy() < known).then(|| least(&upright));
+    let upright = if other.at.energy < one.at.energy { other } else { one };
+    let stands = |known: f64| (0.5 * upright.at.energy < known).then(|| least(&upright));
     match lying {
-        Some((true, lying)) => [Some(lying), stands(lying.energy())],
+        Some((true, lying)) => [Some(lying), stands(lying.at.energy)],
         Some((false, _)) => [None, stands(on_face)],
         None => [side.map(|side| least(&side)), Some(least(&upright))],
     }

@@ -31,7 +31,7 @@ const BEHIND_SLACK: f64 = 1e-9;
 /// Difference of two unit normals up to which two faces count as one plane.
 const PLANE_SLACK: f64 = 1e-7;
 /// Most planes through triangles, edges and vertices beside one cylinder or cone.
-const STANDS: usize = 2048;
+const STANDS: usize = 1024;
 /// Part of an energy, far above rounding, by which one plane must be better than another.
 const TIE: f64 = 1.0 - 1e-12;
 
@@ -137,7 +137,7 @@ fn is_before(
     is_held: bool,
 ) -> bool {
     let below = frustum.ends.map(|end| stand.normal_b.dot(&(stand.point_b - end)));
-    let is_sunk = [0, 1].map(|end| stand.depths[end + 2] > 0.0);
+    let is_sunk = [0, 1].map(|end| stand.at.depths[end + 2] > 0.0);
     let may_be_below = |end: usize| {
         !is_sunk[end] || below[end] < thickness_for_disc(context, item, &EndDisc { frustum, end })
     };
@@ -153,8 +153,10 @@ fn write_stand(
 ) {
     ends.iter_mut().filter(|contact| contact.takes_part()).for_each(|contact| contact.weight = 0.0);
     middle.iter_mut().for_each(|contact| contact.status = CandidateStatus::Culled);
-    let places = stand.places(frustum);
-    for (index, deepest_b) in places.into_iter().enumerate().filter(|(index, _)| stand.depths[*index] > 0.0) {
+    let places = stand.at.places(frustum);
+    for (index, deepest_b) in
+        places.into_iter().enumerate().filter(|(index, _)| stand.at.depths[*index] > 0.0)
+    {
         let key = ContactKey { end: index as u32, ..any.key };
         let same = |contact: &&mut ContactCandidate| {
             let is_there = match stand.feature.kind() {
@@ -170,7 +172,7 @@ fn write_stand(
             None => added[index].insert(fresh(any, key, item, stand.feature)),
         };
         (contact.normal_b, contact.depth, contact.deepest_b) =
-            (stand.normal_b, stand.depths[index], deepest_b);
+            (stand.normal_b, stand.at.depths[index], deepest_b);
         (contact.weight, contact.status) = (1.0, CandidateStatus::Front);
     }
 }
@@ -416,7 +418,7 @@ impl Bar<'_> {
         for _ in 0..TRIES {
             let mut best: Option<(f64, usize)> = None;
             for (index, (stand, _)) in self.stands.iter().enumerate() {
-                let energy = stand.energy();
+                let energy = stand.at.energy;
                 let is_next = (energy, Some(index)) > tried;
                 // Of planes that differ by rounding the first counts.
                 if is_next && best.is_none_or(|(least, _)| energy < least * TIE) {
@@ -434,7 +436,7 @@ impl Bar<'_> {
                 let (mut stand, item) = self.stands[index];
                 // Two that are apart may have a plane that stores something as the least that was found.
                 if !is_touched(&item) && !self.near.iter().any(is_touched) {
-                    stand.depths = [0.0; 4];
+                    stand.at.depths = [0.0; 4];
                 }
                 return Some((stand, item));
             }
