@@ -17,10 +17,10 @@
 //! A walk from feature to feature, on which F falls, ends at one of these.
 
 use super::end_disc::UPRIGHT;
-use super::least_translation::{Local, lattice};
+use super::least_translation::Local;
 use super::{Feature, FeatureKind, Interference};
 use crate::distance::Solid;
-use crate::primitive::{EightBoxes, Frustum, PlaneBlock, Polyhedron, PolyhedronEdge};
+use crate::primitive::{EdgePush, EightBoxes, Frustum, PlaneBlock, Polyhedron, PolyhedronEdge};
 use crate::simd::{LANES, LaneBits, Simd, Splat, run_at_level};
 use crate::{Transform, Vec3, any_perpendicular, divisor};
 
@@ -195,74 +195,119 @@ impl<'a> Body<'a> {
     /// Returns the plane of the least energy; `None` if one stores none.
     ///
     /// F is at least D², with D the overlap of A and B along n. The feature of a minimum lies on the line of the load, D or
-    /// less from it. So with one plane known, only faces with D² < F and features within √F of A count.
+    /// less from it. So with one plane known, only features within √F of A count, of these only those among whose normals F
+    /// can be less. No other face is better than the first one.
     fn least(&self) -> Option<Stand> {
-        /// Depth, relative to the smaller of radius and length, above which minima lie close together: walks start everywhere.
+        /// Depth, relative to the smaller of radius and length, above which a feature may have several minima.
         const DEEP: f64 = 0.02;
+        /// Cosines of the angles between normals from the middle of which one walk begins, shallow and deep.
+        const NARROW: [f64; 2] = [0.7, 0.995];
         let solid = self.polyhedron;
         let first = least_face_of(self.frustum, solid)?;
-        let mut best = self.descend(self.on_face(first), None);
+        let mut best = self.descend(self.on_face(first), true);
         let reach = best.at.energy.sqrt();
         let radius = self.frustum.radii[0].max(self.frustum.radii[1]);
         let is_deep = reach > DEEP * radius.min(self.frustum.length);
-        let mut offer = |start: Stand| {
-            let found = self.descend(start, Some(Feature::face(first)));
-            if found.at.energy < best.at.energy * TIE {
-                best = found;
-            }
-        };
-        let mut block = 0;
-        while let Some((at, bits)) = faces_within(self.frustum, solid, reach, block) {
-            let faces = (0..LANES).filter(|lane| bits >> lane & 1 == 1).map(|lane| at * LANES + lane);
-            faces.filter(|&face| face != first).for_each(|face| offer(self.on_face(face)));
-            block = at + 1;
-        }
-        let mut touching = |normal_b: Vec3, vertex: &Vec3, feature: Feature| {
-            let at = self.on_plane(&normal_b, normal_b.dot(vertex));
-            offer(Stand { normal_b, feature, at });
-        };
+        let narrow = NARROW[usize::from(is_deep)];
         let mut is_edge_near = false;
         each_edge_within(self.frustum, solid, reach, &mut |index| {
             let edge = &solid.edges[index];
             let Some(push) = &edge.push else { return };
             is_edge_near = true;
-            // Of an edge that is deep in A there may be two minima, as of a vertex.
-            for &share in if is_deep { &[0.5, 0.25, 0.75][..] } else { &[0.5][..] } {
-                let between = push.normals[0].lerp(&push.normals[1], share).normalize();
-                touching(between, &self.vertex(edge.vertices[0]), Feature::edge(index));
-            }
+            let point = self.vertex(edge.vertices[0]);
+            self.cover_arc(push.normals, (&point, Feature::edge(index)), narrow, &mut best);
         });
         let corners = solid.vertices.iter().map(|vertex| vertex.position).enumerate();
         for (vertex, corner) in
             corners.filter(|(_, corner)| is_edge_near && is_within(self.frustum, [corner; 2], reach))
         {
             let meets = |edge: &&PolyhedronEdge| edge.vertices.contains(&(vertex as u32));
-            let normals = solid.edges.iter().filter(meets).filter_map(|edge| edge.push);
-            let normals = normals.map(|push| (push.normals[0] + push.normals[1]).normalize());
-            let sum = normals.clone().sum::<Vec3>();
-            if let Some(between) = sum.try_normalize(f64::MIN_POSITIVE) {
-                touching(between, &corner, Feature::vertex(vertex));
-                for normal in normals.filter(|_| is_deep) {
-                    touching((between + normal).normalize(), &corner, Feature::vertex(vertex));
-                }
-            }
-        }
-        if is_deep && is_edge_near {
-            let axis = self.frustum.axis;
-            let across = any_perpendicular(&axis);
-            for normal in lattice([axis, across, axis.cross(&across)]) {
-                let heights = solid.vertices.iter().map(|vertex| normal.dot(&vertex.position)).enumerate();
-                let farthest = heights.reduce(|a, b| if b.1 > a.1 { b } else { a });
-                let Some((vertex, _)) = farthest else { break };
-                touching(normal, &self.vertex(vertex as u32), Feature::vertex(vertex));
+            let pushes = solid.edges.iter().filter(meets).filter_map(|edge| edge.push);
+            let sum: Vec3 = pushes.clone().map(|push| (push.normals[0] + push.normals[1]).normalize()).sum();
+            let Some(between) = sum.try_normalize(f64::MIN_POSITIVE) else { continue };
+            for EdgePush { normals: [from, to], .. } in pushes {
+                self.cover([between, from, to], (&corner, Feature::vertex(vertex)), narrow, &mut best);
             }
         }
         (best.at.energy > 0.0).then_some(best)
     }
 
-    /// Walks from feature to feature to a plane that no small turn betters, or that stores nothing, or to a feature that is
-    /// known.
-    fn descend(&self, mut stand: Stand, known: Option<Feature>) -> Stand {
+    /// Walks from the middle of the normals between two, or of parts of them, where F may be less than at `best`.
+    fn cover_arc(&self, ends: [Vec3; 2], (point, feature): (&Vec3, Feature), narrow: f64, best: &mut Stand) {
+        let least = ends[0].dot(&ends[1]);
+        if self.bound(&ends, least, point) >= best.at.energy * TIE {
+            return;
+        }
+        let [from, to] = ends;
+        let middle = (from + to).normalize();
+        if least > narrow || least.is_nan() {
+            return self.offer(middle, (point, feature), best);
+        }
+        for part in [[from, middle], [middle, to]] {
+            self.cover_arc(part, (point, feature), narrow, best);
+        }
+    }
+
+    /// Walks from the middle of the normals between three of a vertex, or of parts of them, where F may be less than at `best`.
+    fn cover(&self, corners: [Vec3; 3], (point, feature): (&Vec3, Feature), narrow: f64, best: &mut Stand) {
+        let [a, b, c] = corners;
+        let least = a.dot(&b).min(b.dot(&c)).min(c.dot(&a));
+        if self.bound(&corners, least, point) >= best.at.energy * TIE {
+            return;
+        }
+        if least > narrow || least.is_nan() {
+            return self.offer((a + b + c).normalize(), (point, feature), best);
+        }
+        let [ab, bc, ca] = [a + b, b + c, c + a].map(|sum| sum.normalize());
+        for part in [[ab, bc, ca], [a, ab, ca], [ab, b, bc], [ca, bc, c]] {
+            self.cover(part, (point, feature), narrow, best);
+        }
+    }
+
+    /// Walks from a plane that touches B at a point, and keeps the better one.
+    fn offer(&self, normal_b: Vec3, (point, feature): (&Vec3, Feature), best: &mut Stand) {
+        let at = self.on_plane(&normal_b, normal_b.dot(point));
+        let found = self.descend(Stand { normal_b, feature, at }, false);
+        if found.at.energy < best.at.energy * TIE {
+            *best = found;
+        }
+    }
+
+    /// Returns a lower bound of F over the normals between two or three, along which a vertex is farthest, with the least
+    /// cosine between two of them. A unit vector between them is their sum with weights that add up to 1 to `most`.
+    fn bound(&self, normals: &[Vec3], least: f64, vertex: &Vec3) -> f64 {
+        let Frustum { ends, radii, axis, .. } = self.frustum;
+        let share = if normals.len() == 2 { 0.5 } else { 2.0 / 3.0 };
+        // Of the shortest sum with weights that add up to 1.
+        let shortest = 1.0 - share * (1.0 - least);
+        if shortest < 0.1 {
+            return 0.0;
+        }
+        let most = 1.0 / shortest.max(0.1).sqrt();
+        let range = |along: &Vec3| {
+            let heights = normals.iter().map(|normal| normal.dot(along));
+            let [low, high] = heights.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], height| {
+                [low.min(height), high.max(height)]
+            });
+            [low.min(low * most), high.max(high * most)]
+        };
+        let [low, high] = range(axis);
+        let steepest = low.abs().max(high.abs()).min(1.0);
+        let flattest = if low * high <= 0.0 { 0.0 } else { low.abs().min(high.abs()) };
+        let sines = [steepest, flattest].map(|cosine| (1.0 - cosine * cosine).max(0.0).sqrt());
+        let mut sum = 0.0;
+        for end in 0..2 {
+            let [middle, _] = range(&(vertex - ends[end]));
+            let low = (middle + radii[end] * sines[0]).max(0.0);
+            let high = if radii[end] > 0.0 { (middle - radii[end] * sines[1]).max(0.0) } else { 0.0 };
+            sum += low * low + high * high;
+        }
+        sum
+    }
+
+    /// Walks from feature to feature to a plane that no small turn betters, or that stores nothing, or to a face from which
+    /// no walk need begin.
+    fn descend(&self, mut stand: Stand, from_faces: bool) -> Stand {
         /// More than the features on any way.
         const STEPS: usize = 200;
         for _ in 0..STEPS {
@@ -275,7 +320,7 @@ impl<'a> Body<'a> {
                 FeatureKind::Vertex => self.about_vertex(&mut stand),
             };
             match next {
-                Some(feature) if known != Some(feature) => stand.feature = feature,
+                Some(feature) if from_faces || feature.kind() != FeatureKind::Face => stand.feature = feature,
                 _ => break,
             }
         }
@@ -500,37 +545,6 @@ fn is_within(frustum: &Frustum, ends: [&Vec3; 2], reach: f64) -> bool {
 /// Returns the face on which a body stores least, the first of equal ones; `None` if it is above one.
 fn least_face_of(frustum: &Frustum, polyhedron: &Polyhedron) -> Option<usize> {
     run_at_level!(least_face(frustum: Frustum, polyhedron: Polyhedron) -> Option<usize>)
-}
-
-/// Returns the next block of faces, from `first` on, along whose normals a body overlaps by less than `reach`, m, and which
-/// faces of it these are.
-fn faces_within(
-    frustum: &Frustum,
-    polyhedron: &Polyhedron,
-    reach: f64,
-    first: usize,
-) -> Option<(usize, LaneBits)> {
-    let within = &(reach, first);
-    run_at_level!(next_within(frustum: Frustum, polyhedron: Polyhedron, within: (f64, usize)) -> Option<(usize, LaneBits)>)
-}
-
-#[inline(always)]
-fn next_within<S: Simd>(
-    simd: S,
-    frustum: &Frustum,
-    polyhedron: &Polyhedron,
-    &(reach, first): &(f64, usize),
-) -> Option<(usize, LaneBits)> {
-    let (body, reach) = (Eight::new(simd, frustum), simd.splat(reach));
-    for (index, block) in polyhedron.planes().blocks.iter().enumerate().skip(first) {
-        let [[first, last], [of_first, of_last]] = body.depths(simd, block);
-        let deepest = simd.larger(simd.add(first, of_first), simd.add(last, of_last));
-        let faces = simd.bits(simd.below(deepest, reach)) & block.own;
-        if faces != 0 {
-            return Some((index, faces));
-        }
-    }
-    None
 }
 
 #[inline(always)]
