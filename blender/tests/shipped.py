@@ -167,8 +167,9 @@ def main():
     refuse_other_platform(folder)
     given = os.environ.get("ZIPS")
     for name in MUST_HOLD:
-        path = next(Path(given).glob(f"{name}-*.zip")) if given else built(name, folder)
-        install(name, checked(name, path))
+        found = list(Path(given).glob(f"{name}-*.zip")) if given else [built(name, folder)]
+        assert len(found) == 1, f"{len(found)} zips of {name} in {given}, and one is to be tried: make it by build_zips.py -o {given}"
+        install(name, checked(name, found[0]))
     environment = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
     subprocess.run([sys.executable, str(HERE), "--use", str(folder)], check=True, env=environment)
     leave()
