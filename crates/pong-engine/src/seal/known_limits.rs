@@ -55,9 +55,9 @@ const LIMITS: &[KnownLimit] = &[
         a: &[Cylinder, Cone],
         b: &[Triangle],
         may_show: always,
-        text: "a side that lies flat over an edge has half of the stiffness, at a disc or at the edge by the sign of a tilt; a flat \
-               end that overhangs steps by ½kδ as its rim passes the edge, and feels no corner of a mesh inside its rim; keep \
-               wheels on their ground, and axes above edges",
+        text: "where the triangles that it touches are not convex, a flat end that overhangs steps by ½kδ as its rim passes the edge, \
+               and feels no corner inside its rim; a side over an edge has half of the stiffness once its axis has reached the \
+               surface, in one step; keep wheels on their ground, and axes above edges",
     },
     KnownLimit {
         a: &[LineSegment],
