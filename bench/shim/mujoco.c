@@ -76,15 +76,22 @@ typedef struct {
 
 enum { TARGET, MOVER };
 
+/* MuJoCo's functions take the geom of the lesser type first. */
+static int is_swapped(const scene *s)
+{
+    return s->model->geom_type[MOVER] > s->model->geom_type[TARGET];
+}
+
 static answer narrow(scene *s, mjfCollision collide)
 {
     mjPreContact found[mjMAXCONPAIR];
     answer out = {0};
-    int i, count = collide(s->model, s->data, found, MOVER, TARGET, 0);
+    int swapped = is_swapped(s);
+    int i, count = collide(s->model, s->data, found, swapped ? TARGET : MOVER, swapped ? MOVER : TARGET, 0);
     for (i = 0; i < count; i++) {
         if (-found[i].dist > out.depth) {
             out.depth = -found[i].dist;
-            mju_scl3(out.normal, found[i].normal, -1);
+            mju_scl3(out.normal, found[i].normal, swapped ? 1 : -1);
             mju_copy3(out.point, found[i].pos);
         }
     }
@@ -105,8 +112,8 @@ static void place(scene *s, int geom, const double *pose)
 /* One query per pair of poses of mover and target, by the function that MuJoCo's own dispatch would call. */
 void pong_mujoco_pairs(scene *s, const double *poses, int count, answer *answers)
 {
-    mjfCollision collide = mjCOLLISIONFUNC[s->model->geom_type[MOVER]][s->model->geom_type[TARGET]];
-    int i;
+    int first = is_swapped(s) ? TARGET : MOVER, i;
+    mjfCollision collide = mjCOLLISIONFUNC[s->model->geom_type[first]][s->model->geom_type[TARGET + MOVER - first]];
     for (i = 0; i < count; i++, poses += 14) {
         place(s, MOVER, poses);
         place(s, TARGET, poses + 7);
