@@ -76,22 +76,15 @@ typedef struct {
 
 enum { TARGET, MOVER };
 
-/* MuJoCo's functions take the geom of the lesser type first. */
-static int is_swapped(const scene *s)
-{
-    return s->model->geom_type[MOVER] > s->model->geom_type[TARGET];
-}
-
-static answer narrow(scene *s, mjfCollision collide)
+static answer narrow(scene *s, mjfCollision collide, int first)
 {
     mjPreContact found[mjMAXCONPAIR];
     answer out = {0};
-    int swapped = is_swapped(s);
-    int i, count = collide(s->model, s->data, found, swapped ? TARGET : MOVER, swapped ? MOVER : TARGET, 0);
+    int i, count = collide(s->model, s->data, found, first, TARGET + MOVER - first, 0);
     for (i = 0; i < count; i++) {
         if (-found[i].dist > out.depth) {
             out.depth = -found[i].dist;
-            mju_scl3(out.normal, found[i].normal, swapped ? 1 : -1);
+            mju_scl3(out.normal, found[i].normal, first == MOVER ? -1 : 1);
             mju_copy3(out.point, found[i].pos);
         }
     }
@@ -112,12 +105,14 @@ static void place(scene *s, int geom, const double *pose)
 /* One query per pair of poses of mover and target, by the function that MuJoCo's own dispatch would call. */
 void pong_mujoco_pairs(scene *s, const double *poses, int count, answer *answers)
 {
-    int first = is_swapped(s) ? TARGET : MOVER, i;
-    mjfCollision collide = mjCOLLISIONFUNC[s->model->geom_type[first]][s->model->geom_type[TARGET + MOVER - first]];
+    const int *type = s->model->geom_type;
+    /* MuJoCo's functions take the geom of the lesser type first. */
+    int first = type[MOVER] <= type[TARGET] ? MOVER : TARGET, i;
+    mjfCollision collide = mjCOLLISIONFUNC[type[first]][type[TARGET + MOVER - first]];
     for (i = 0; i < count; i++, poses += 14) {
         place(s, MOVER, poses);
         place(s, TARGET, poses + 7);
-        answers[i] = narrow(s, collide);
+        answers[i] = narrow(s, collide, first);
     }
 }
 

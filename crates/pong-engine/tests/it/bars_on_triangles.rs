@@ -32,17 +32,6 @@ fn lie(rig: &mut Rig, x: f64, tilt: f64) -> (Wrench, f64) {
     rig.set_at(middle, Quat::from_scaled_axis(Vec3::y() * tilt))
 }
 
-impl Rig {
-    fn set_at(&mut self, place: Vec3, orientation: Quat) -> (Wrench, f64) {
-        let object = self.objects[0];
-        self.world.clear_contact_history(object).unwrap();
-        self.place_a(place, orientation);
-        self.world.evaluate().unwrap();
-        let stored = self.world.contacts().iter().map(|contact| contact.stored).sum();
-        (self.wrench(0), stored)
-    }
-}
-
 /// Largest ½k·δ(s)²/(2(1 − s)² + 2s²) over the places s of an axis: the energy of a bar on one convex surface, whose
 /// distance from a place is given (decision 0014, equation 3).
 fn stored_on_convex(ends: [Vec3; 2], distance: impl Fn(Vec3) -> f64) -> f64 {
@@ -159,7 +148,6 @@ fn cuts_of_a_plate_change_nothing() {
 /// The wrench is minus the derivative of the stored energy on a plate and past its rims, on a roof and in a valley.
 #[test]
 fn the_wrench_of_a_bar_derives_from_its_energy() {
-    const STEP: f64 = 1e-6;
     let plate = plate_mesh("p", 3, 0.8, |x, y| Vec3::new(x, y, 0.0));
     let roof = plate_mesh("p", 2, 8.0, |x, y| Vec3::new(x, y, -0.2 * x.abs()));
     let valley = plate_mesh("p", 2, 8.0, |x, y| Vec3::new(x, y, 0.2 * x.abs()));
@@ -173,24 +161,11 @@ fn the_wrench_of_a_bar_derives_from_its_energy() {
                 let place = Vec3::new(offset.x, offset.y, height + 0.1 * offset.z);
                 let orientation = Quat::from_scaled_axis(random.vector(0.1));
                 let orientation = orientation * Quat::from_scaled_axis(Vec3::z() * random.between(-3.0, 3.0));
-                let (velocity, rate) = (random.direction(), random.direction());
-                let mut at = |time: f64| {
-                    let turned = Quat::from_scaled_axis(rate * time) * orientation;
-                    rig.set_at(place + velocity * time, turned)
-                };
-                let ((_, before), (_, after), (wrench, middle)) = (at(-STEP), at(STEP), at(0.0));
-                let force = wrench.force.norm();
-                let halves = [(after - middle) / STEP, (middle - before) / STEP];
-                // The derivative has a kink where another place begins to carry.
-                if force < 1.0
-                    || middle > 0.5 * PAIR * 0.03 * 0.03
-                    || (halves[0] - halves[1]).abs() > 1e-3 * force
-                {
+                let Derivative { force, stored, is_kink, off } =
+                    rig.derivative((place, orientation), [random.direction(), random.direction()]);
+                if force < 1.0 || stored > 0.5 * PAIR * 0.03 * 0.03 || is_kink {
                     continue;
                 }
-                let power = wrench.force.dot(&velocity) + wrench.moment.dot(&rate);
-                let slope = 0.5 * (halves[0] + halves[1]);
-                let off = (power + slope).abs() / force;
                 worst = worst.max(off);
                 compared += 1;
             }

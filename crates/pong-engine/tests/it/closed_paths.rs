@@ -411,17 +411,17 @@ fn capsules_on_boxes_and_triangles() {
     }
 }
 
+/// A cylinder or a cone around an axis, from −half to half.
+fn drum(axis: &str, half: f64, [first, last]: [f64; 2]) -> String {
+    let end = |at: f64| if axis == "x" { format!("({at:?},0,0)") } else { format!("(0,0,{at:?})") };
+    let (ends, radii) = (format!("({},{})", end(-half), end(half)), format!("({first:?},{last:?})"));
+    model("drum", &elastic(), &format!("Cone(name: \"l\", ends: {ends}, radii: {radii})"))
+}
+
 /// On and past the rim of a plate, lying and tipping, over a ridge along and across it, over an edge and a corner of a block.
 #[test]
 fn drums_on_triangles() {
-    let drum = |half: f64, radii: [f64; 2]| {
-        let ends = format!("ends: ((-{half},0,0),({half},0,0))");
-        model(
-            "drum",
-            &elastic(),
-            &format!("Cone(name: \"l\", {ends}, radii: ({:?},{:?}))", radii[0], radii[1]),
-        )
-    };
+    let drum = |half: f64, radii| drum("x", half, radii);
     let plate = plate_mesh("m", 3, 2.0, |x, y| Vec3::new(x, y, 0.0));
     let ridge = plate_mesh("m", 2, 2.0, |x, y| Vec3::new(x, y, -0.4 * x.abs()));
     let block = block(1.0, 1.0);
@@ -451,11 +451,7 @@ fn drums_on_triangles() {
 /// Standing on a plate, past its rim and a corner, on a ridge, over an edge and a corner of a block, and leaning there.
 #[test]
 fn drums_that_stand_on_triangles() {
-    let drum = |half: f64, radii: [f64; 2]| {
-        let ends = format!("ends: ((0,0,-{half}),(0,0,{half}))");
-        let radii = format!("({:?},{:?})", radii[0], radii[1]);
-        model("drum", &elastic(), &format!("Cone(name: \"l\", {ends}, radii: {radii})"))
-    };
+    let drum = |half: f64, radii| drum("z", half, radii);
     let plate = plate_mesh("m", 3, 2.0, |x, y| Vec3::new(x, y, 0.0));
     let ridge = plate_mesh("m", 2, 2.0, |x, y| Vec3::new(x, y, -0.4 * x.abs()));
     let block = block_of(1.0, 1.0, 1.0);

@@ -1,7 +1,7 @@
 //! Cylinders that leave a box over its edge, rolling and standing (docs/theory.md, 2.8): energy, the place where they leave
 //! it, and free flight.
 
-use crate::rolling::on_ground_by;
+use crate::rolling::{Host, on_ground};
 use pong_executive::{Integrator, MassProperties, Pose, RigidBody, Simulation, Twist, Vec3};
 use pong_testkit::ron::box_polyhedron;
 
@@ -13,9 +13,6 @@ const HALF: f64 = 0.3;
 /// Depth at rest on a face, m.
 const SAG: f64 = MASS * G / K;
 const ROLLS: &str = "Bristle(mu: 50.0, stiffness: 1e5, damping: 500.0)";
-
-/// Integrator and step, s.
-type Host = (Integrator, f64);
 
 const HOSTS: [Host; 4] = [
     (Integrator::RungeKutta4, 2.5e-4),
@@ -36,7 +33,7 @@ fn drum(is_upright: bool, (x, z): (f64, f64), speed: f64, friction: &str, host: 
         .at(Pose::new(Vec3::new(x, 0.0, z), [1.0, 0.0, 0.0, 0.0]))
         .moving(Twist { linear: Vec3::new(speed, 0.0, 0.0), angular: Vec3::new(0.0, spin, 0.0) });
     let ground = box_polyhedron("b", [-2.0, 0.0, -1.0], [2.0, 1.0, 1.0], "");
-    let (mut simulation, _) = on_ground_by(host.0, &cylinder, &ground, K, friction, body, host.1);
+    let (mut simulation, _) = on_ground(&cylinder, &ground, K, friction, body, host);
     simulation.set_gravity(Vec3::new(0.0, 0.0, -G));
     simulation.commit_initial_states().unwrap();
     simulation

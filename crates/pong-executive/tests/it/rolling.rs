@@ -11,27 +11,22 @@ use std::sync::Arc;
 
 const G: f64 = 9.81;
 
-/// A cylinder as `body` on a fixed `ground`; both surfaces have twice the stiffness of the pair, N/m.
-fn on_ground(
-    cylinder: &str,
-    ground: &str,
-    stiffness: f64,
-    friction: &str,
-    body: RigidBody,
-    step: f64,
-) -> (Simulation, BodyId) {
-    on_ground_by(Integrator::RungeKutta4, cylinder, ground, stiffness, friction, body, step)
+/// Integrator and step, s.
+pub type Host = (Integrator, f64);
+
+/// Classical Runge–Kutta steps, s.
+fn steps(step: f64) -> Host {
+    (Integrator::RungeKutta4, step)
 }
 
-/// A cylinder on a ground as in [`on_ground`], with any integrator.
-pub fn on_ground_by(
-    integrator: Integrator,
+/// A cylinder as `body` on a fixed `ground`; both surfaces have twice the stiffness of the pair, N/m.
+pub fn on_ground(
     cylinder: &str,
     ground: &str,
     stiffness: f64,
     friction: &str,
     body: RigidBody,
-    step: f64,
+    (integrator, step): Host,
 ) -> (Simulation, BodyId) {
     let surface = surface(2.0 * stiffness, &format!("normal: Linear(damping: 0.0), friction: {friction}"));
     let models = [model("body", &surface, cylinder), model("ground", &surface, ground)];
@@ -71,7 +66,7 @@ fn a_wheel_rolls_down_a_slope_of_any_parts() {
         let body = RigidBody::free("wheel", MassProperties::principal(mass, moments))
             .at(Pose::new(Vec3::new(0.0, 0.0, height), [1.0, 0.0, 0.0, 0.0]));
         let friction = "Bristle(mu: 0.8, stiffness: 1e6, damping: 2e3)";
-        let (mut simulation, wheel) = on_ground(&wheel, &ground, K, friction, body, 5e-4);
+        let (mut simulation, wheel) = on_ground(&wheel, &ground, K, friction, body, steps(5e-4));
         simulation.set_gravity(Vec3::new(G * slope.sin(), 0.0, -G * slope.cos()));
         let mut bump = 0.0_f64;
         for _ in 0..4_000 {
@@ -107,7 +102,8 @@ fn a_coin_rolls_on_its_rim() {
     let pose = Pose::new(Vec3::new(0.0, 0.0, height), [(0.5 * lean).cos(), 0.0, (0.5 * lean).sin(), 0.0]);
     let body = RigidBody::free("coin", MassProperties::principal(mass, moments)).at(pose);
     let body = body.moving(Twist { linear: Vec3::zeros(), angular });
-    let (mut simulation, coin) = on_ground(&coin, ground, 1e6, "Bristle(mu: 0.5, damping: 5.0)", body, 1e-5);
+    let (mut simulation, coin) =
+        on_ground(&coin, ground, 1e6, "Bristle(mu: 0.5, damping: 5.0)", body, steps(1e-5));
     simulation.set_gravity(Vec3::new(0.0, 0.0, -G));
     let (mut wandered, mut leaned) = (0.0_f64, 0.0_f64);
     let turn = TAU / around;
@@ -138,7 +134,7 @@ fn a_drum_stands_over_the_rim_of_a_plate() {
         let moments = [across, across, 0.5 * mass * radius * radius];
         let body = RigidBody::free("drum", MassProperties::principal(mass, moments))
             .at(Pose::new(start, [1.0, 0.0, 0.0, 0.0]));
-        let (mut simulation, drum) = on_ground(&drum, &plate, K, "None", body, 0.05);
+        let (mut simulation, drum) = on_ground(&drum, &plate, K, "None", body, steps(0.05));
         simulation.set_gravity(Vec3::new(0.0, 0.0, -G));
         let mut moved = 0.0_f64;
         for _ in 0..60 {
@@ -178,7 +174,7 @@ fn a_drum_rests_on_two_rollers() {
         .at(Pose::new(Vec3::new(0.0, 0.0, height), [1.0, 0.0, 0.0, 0.0]));
     let friction = "Bristle(mu: 0.3, damping: 2e3)";
     let (mut simulation, drum) =
-        on_ground(&log("d", "y", 0.3, radius), &rollers.join(","), K, friction, body, 2e-4);
+        on_ground(&log("d", "y", 0.3, radius), &rollers.join(","), K, friction, body, steps(2e-4));
     simulation.set_gravity(Vec3::new(0.0, 0.0, -G));
     let mut moved = 0.0_f64;
     for _ in 0..2_000 {
@@ -206,7 +202,8 @@ fn a_log_rocks_across_another() {
     let body = RigidBody::free("log", MassProperties::principal(mass, moments)).at(pose);
     let friction = "Bristle(mu: 0.9, stiffness: 2e7, damping: 2e3)";
     let ground = log("g", "y", 0.5, below);
-    let (mut simulation, upper) = on_ground(&log("u", "x", half, radius), &ground, 1e7, friction, body, 1e-4);
+    let (mut simulation, upper) =
+        on_ground(&log("u", "x", half, radius), &ground, 1e7, friction, body, steps(1e-4));
     simulation.set_gravity(Vec3::new(0.0, 0.0, -G));
     let rate = (mass * G * (below - radius) / (across + mass * radius * radius)).sqrt();
     let tilt_of = |simulation: &Simulation| {
@@ -236,7 +233,7 @@ fn a_log_leaves_a_parallel_one() {
         let body =
             RigidBody::free("log", MassProperties::principal(mass, [inertia, inertia, inertia])).at(pose);
         let (mut simulation, upper) =
-            on_ground(&log("u", "y", 0.4, radius), &ground, 1e7, friction, body, 2e-5);
+            on_ground(&log("u", "y", 0.4, radius), &ground, 1e7, friction, body, steps(2e-5));
         simulation.set_gravity(Vec3::new(0.0, 0.0, -G));
         let angle = loop {
             simulation.step().unwrap();

@@ -29,7 +29,42 @@ pub fn load(builder: &mut WorldBuilder, text: &str) -> ModelId {
     builder.add_model(Arc::new(model.unwrap_or_else(|errors| panic!("{errors}\n{text}"))))
 }
 
+/// A wrench beside the central difference of the energy.
+pub struct Derivative {
+    /// Size of the force, N.
+    pub force: f64,
+    /// Energy, J.
+    pub stored: f64,
+    /// True where another place begins to carry: the derivative has a kink.
+    pub is_kink: bool,
+    /// Power and derivative together over the force, which is nothing for −∂U/∂x.
+    pub off: f64,
+}
+
 impl Rig {
+    /// Places A at a pose, without history: the wrench on A, and the energy stored.
+    pub fn set_at(&mut self, place: Vec3, orientation: Quat) -> (Wrench, f64) {
+        let object = self.objects[0];
+        self.world.clear_contact_history(object).unwrap();
+        self.place_a(place, orientation);
+        self.world.evaluate().unwrap();
+        let stored = self.world.contacts().iter().map(|contact| contact.stored).sum();
+        (self.wrench(0), stored)
+    }
+
+    /// Compares the wrench on A at a pose with the derivative of the energy along a twist.
+    pub fn derivative(&mut self, (place, turn): (Vec3, Quat), [velocity, rate]: [Vec3; 2]) -> Derivative {
+        const STEP: f64 = 1e-6;
+        let mut at =
+            |time: f64| self.set_at(place + velocity * time, Quat::from_scaled_axis(rate * time) * turn);
+        let ((_, before), (_, after), (wrench, stored)) = (at(-STEP), at(STEP), at(0.0));
+        let force = wrench.force.norm();
+        let halves = [(after - stored) / STEP, (stored - before) / STEP];
+        let power = wrench.force.dot(&velocity) + wrench.moment.dot(&rate);
+        let off = (power + 0.5 * (halves[0] + halves[1])).abs() / force;
+        Derivative { force, stored, is_kink: (halves[0] - halves[1]).abs() > 1e-3 * force, off }
+    }
+
     pub fn new(a: &str, b: &str) -> Self {
         Self::with_config(Config { ledger: true, ..Config::default() }, a, b)
     }
