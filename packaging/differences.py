@@ -73,5 +73,5 @@ def differences(one: Path, other: Path, work: Path) -> list[str]:
 if __name__ == "__main__":
     with tempfile.TemporaryDirectory() as scratch:
         lines = differences(Path(sys.argv[1]), Path(sys.argv[2]), Path(scratch))
-    print("\n".join(lines))
+    print(*lines, sep="\n", end="\n" if lines else "")
     sys.exit(bool(lines))

@@ -4,8 +4,8 @@ import itertools
 import json
 import math
 import os
-import resource
 import signal
+import sys
 import threading
 import time
 
@@ -253,6 +253,7 @@ def test_a_full_disk_is_told_and_loses_nothing(tmp_path, cluster):
     failed = {"run": 1, "error": "RunError", "message": "none" * 100}
     for number in (0, 1):
         (out / "parts" / f"part-{number:08d}.parquet").unlink()
+    resource = pytest.importorskip("resource", reason="the system has no limits of a process")
     before = resource.getrlimit(resource.RLIMIT_FSIZE)
     resource.setrlimit(resource.RLIMIT_FSIZE, (100, before[1]))
     try:
@@ -311,6 +312,7 @@ def refused(call, *words):
         assert word in str(caught.value), str(caught.value)
 
 
+@pytest.mark.skipif(sys.platform != "linux", reason="only Linux has /proc")
 def test_a_scene_that_a_worker_cannot_read(tmp_path, cluster, monkeypatch):
     """A path that resolves differently on the worker, which is another process in another folder."""
     scene_folder(tmp_path, SHORT)

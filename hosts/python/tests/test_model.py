@@ -138,7 +138,7 @@ def test_every_number_and_every_text_comes_back():
     surfaces = {name: {"stiffness": float("inf"), "friction": None} for name in names}
     surfaces["s"] = {"stiffness": 1.0, "friction": {"Bristle": {"mu": 0.3}}}
     own = [{"Custom": {"name": name.replace("/", "|"), "surface": name, "kind": name, "parameters": numbers}} for name in names]
-    faces = [np.array([0, 1, 2]), np.array([0, 3, 2, 1])]
+    faces = [np.array([0, 1, 2], dtype=np.int64), np.array([0, 3, 2, 1], dtype=np.int64)]
     own.append({"Polyhedron": {"name": "p", "vertices": np.array(numbers).reshape(-1, 3), "faces": faces}})
     root = {"name": "m", "surface": "s", "bound": {"Custom": "torus"}, "leaf_size": 7, "primitives": own}
     data = {"format": "pong-model", "version": 1, "name": "m", "surfaces": surfaces, "root": root}

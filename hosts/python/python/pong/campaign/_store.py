@@ -12,7 +12,6 @@ Every part has the contents of campaign.json among its metadata, so that parts t
 """
 
 import contextlib
-import fcntl
 import json
 import os
 import pathlib
@@ -23,6 +22,22 @@ import pyarrow.parquet
 
 from ._errors import CampaignError
 from ._plan import Plan
+
+try:
+    import fcntl
+except ImportError:
+    import msvcrt  # Windows
+
+    def lock_file(file):
+        """Locks an open file for this process, or raises OSError at once: another one holds it."""
+        msvcrt.locking(file.fileno(), msvcrt.LK_NBLCK, 1)
+
+else:
+
+    def lock_file(file):
+        """Locks an open file for this process, or raises OSError at once: another one holds it."""
+        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+
 
 VERSION = 1
 # Metadata key of a part with the contents of campaign.json.
@@ -55,7 +70,7 @@ class Store:
                 self.folder.mkdir(parents=True, exist_ok=True)
                 file = held.enter_context(lock.open("w"))
             try:
-                fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+                lock_file(file)
             except OSError:
                 cure = "wait for its end, or name another folder"
                 raise CampaignError(f"campaign `{self.folder}`: another process runs it at this moment; {cure}") from None
