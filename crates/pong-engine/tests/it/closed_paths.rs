@@ -448,13 +448,15 @@ fn drums_on_triangles() {
     }
 }
 
-/// Standing on a plate, past its rim and a corner, on a ridge, over an edge and a corner of a block, and leaning there.
+/// Standing on a plate, past its rim and a corner, on a ridge, over an edge and a corner of a block, leaning there, and
+/// across a valley.
 #[test]
 fn drums_that_stand_on_triangles() {
     let drum = |half: f64, radii| drum("z", half, radii);
     let plate = plate_mesh("m", 3, 2.0, |x, y| Vec3::new(x, y, 0.0));
     let ridge = plate_mesh("m", 2, 2.0, |x, y| Vec3::new(x, y, -0.4 * x.abs()));
     let block = block_of(1.0, 1.0, 1.0);
+    let valley = plate_mesh("m", 2, 2.0, |x, y| Vec3::new(x, y, 0.2 * x.abs()));
     let (drum, plug) = (drum(0.15, [0.25, 0.25]), drum(0.2, [0.15, 0.2]));
     for (name, drum, ground, center, size, turn) in [
         ("on a plate", &drum, &plate, Vec3::new(0.9, 0.0, 0.15), 0.02, 0.05),
@@ -464,6 +466,7 @@ fn drums_that_stand_on_triangles() {
         ("over an edge of a block", &plug, &block, Vec3::new(1.0, 0.0, 0.19), 0.02, 0.1),
         ("over a corner of a block", &drum, &block, Vec3::new(1.0, 0.97, 0.14), 0.02, 0.05),
         ("leaning over an edge", &drum, &block, Vec3::new(1.1, 0.0, 0.14), 0.03, 0.4),
+        ("across a valley", &drum, &valley, Vec3::new(0.02, 0.0, 0.19), 0.005, 0.02),
     ] {
         let ground = model("ground", &elastic(), ground);
         check_closed_paths(name, drum, &ground, (center, size, turn), Allowed::Nothing);
