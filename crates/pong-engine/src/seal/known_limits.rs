@@ -76,13 +76,6 @@ const LIMITS: &[KnownLimit] = &[
                the lower one a Plane",
     },
     KnownLimit {
-        a: &[Cylinder],
-        b: &[Bore],
-        may_show: has_short_pin,
-        text: "a pin shorter than half its radius that tilts in a tight hole touches at two places of one rim, and its wrench is off \
-               the derivative of its energy by up to 0.43·kδ; make the pin longer",
-    },
-    KnownLimit {
         a: &[Cone],
         b: &[Plane],
         may_show: has_tip,
@@ -102,10 +95,6 @@ fn has_pieces(_: &MovableGroup, b: &MovableGroup) -> bool {
         info.kind == Polyhedron && b.convex_solid(item).is_none()
     };
     b.primitives.iter().enumerate().any(is_piece)
-}
-
-fn has_short_pin(a: &MovableGroup, _: &MovableGroup) -> bool {
-    elements(a, Cylinder).any(|pin| a.frusta[pin].length < 0.5 * a.frusta[pin].radii[0])
 }
 
 /// True if both groups have polyhedra, and points or segments at their corners or edges, such as boxes that

@@ -6,7 +6,7 @@ use crate::frame::narrow_phase::candidate::ContactCandidate;
 use crate::frame::narrow_phase::element_pair::{BETWEEN_DISCS, BETWEEN_ENDS};
 use nalgebra::{DMatrix, Matrix3xX, RowVector6};
 use pong_geometry::primitive::PrimitiveKind::{
-    self, Capsule, Cone, Cylinder, LineSegment, Polyhedron, Ray, Triangle,
+    self, Bore, Capsule, Cone, Cylinder, LineSegment, Polyhedron, Ray, Triangle,
 };
 use pong_geometry::{Mat3, Vec3};
 
@@ -42,6 +42,9 @@ pub(super) fn weigh(kind_a: PrimitiveKind, contacts: &mut [Moving<'_>]) -> Optio
     // Where the ends of a bar yield, the derivatives of the weights come with those of their places.
     if two_ended && (kind_b == Capsule || kind_b == Polyhedron && !contacts[0].contact.found.shares) {
         return Some(());
+    }
+    if two_ended_in(kind_a, kind_b) {
+        return weigh_in_bore(contacts);
     }
     let on_flat = matches!(kind_b, Polyhedron | Triangle);
     if two_ended && !on_flat && !contacts[0].contact.found.shares {
@@ -86,6 +89,25 @@ pub(super) fn weigh(kind_a: PrimitiveKind, contacts: &mut [Moving<'_>]) -> Optio
     Some(())
 }
 
+fn two_ended_in(kind_a: PrimitiveKind, kind_b: PrimitiveKind) -> bool {
+    kind_b == Bore && matches!(kind_a, LineSegment | Capsule | Cylinder)
+}
+
+/// Weights at the ends of a rod in a bore. Those of two tips of a wide rod on opposite sides of the wall follow from
+/// their normals; the places of two contacts of a rim or at a mouth move with both, which has no closed form here.
+fn weigh_in_bore(contacts: &mut [Moving<'_>]) -> Option<()> {
+    contacts.sort_by_key(|moving| moving.contact.found.key.end);
+    for end in contacts.chunk_by_mut(|a, b| a.contact.found.key == b.contact.found.key) {
+        let is_tip =
+            |moving: &Moving<'_>| moving.kind_a != Cylinder && moving.contact.found.feature.is_face();
+        if end.len() > 1 {
+            end.iter().all(is_tip).then_some(())?;
+            weigh_together(end, false)?;
+        }
+    }
+    Some(())
+}
+
 /// Weights of a segment or capsule on a round solid: δ₁²/δ², δ₀²/δ² and 1 − δ₀²δ₁²/δ⁴.
 fn weigh_overlap(contacts: &mut [Moving<'_>]) {
     let square = |end: u32| {
@@ -115,6 +137,10 @@ fn weigh_shared(contacts: &mut [Moving<'_>], again: bool) -> Option<Slope> {
     if contacts.len() == 1 || !contacts[0].contact.found.shares {
         return Some(squared_depth(&contacts[0]));
     }
+    weigh_together(contacts, again)
+}
+
+fn weigh_together(contacts: &mut [Moving<'_>], again: bool) -> Option<Slope> {
     let normals = Matrix3xX::from_iterator(
         contacts.len(),
         contacts.iter().flat_map(|c| c.contact.found.normal_b.iter().copied()),

@@ -512,11 +512,13 @@ fn rods_in_bores() {
     let long = "ends: ((-0.8,0,0),(0.8,0,0))";
     let half = "ends: ((-0.9,0,0),(0.2,0,0))";
     let short = "ends: ((-0.25,0,0),(0.25,0,0))";
+    let disc = "ends: ((-0.02,0,0),(0.02,0,0))";
     let capsule = |ends: &str| format!("Capsule(name: \"l\", {ends}, radius: 0.2)");
     let segment = |ends: &str| format!("LineSegment(name: \"l\", {ends})");
     let pin = |ends: &str, radius: f64| format!("Cylinder(name: \"l\", {ends}, radius: {radius})");
     let straight = "Bore(name: \"b\", ends: ((-0.5,0,0),(0.5,0,0)), radii: (0.3,0.3))";
     let tapered = "Bore(name: \"b\", ends: ((-0.5,0,0),(0.5,0,0)), radii: (0.33,0.3))";
+    let plate = "Bore(name: \"b\", ends: ((-0.02,0,0),(0.02,0,0)), radii: (0.3,0.3), thickness: 0.1)";
     for (name, bore, rod, size, turn) in [
         ("capsule in", straight, capsule(short), 0.12, 0.2),
         ("capsule half in", tapered, capsule(half), 0.1, 0.15),
@@ -527,6 +529,9 @@ fn rods_in_bores() {
         ("pin half in", tapered, pin(half, 0.29), 0.02, 0.04),
         ("pin through", tapered, pin(long, 0.29), 0.02, 0.03),
         ("pin too large", straight, pin(short, 0.302), 0.01, 0.02),
+        ("short pin", straight, pin(disc, 0.298), 0.02, 0.15),
+        ("short pin too large", tapered, pin(disc, 0.317), 0.02, 0.15),
+        ("rod through a plate", plate, pin(long, 0.298), 0.02, 0.15),
     ] {
         let (rod, hole) = (model("rod", &elastic(), &rod), model("hole", &elastic(), bore));
         check_closed_paths(name, &rod, &hole, (Vec3::zeros(), size, turn), Allowed::Nothing);

@@ -132,21 +132,98 @@ impl Across {
         [ways[0].or(Some(self.first_b)), ways[1]]
     }
 
-    /// Returns the direction that maximises λ·p + λ′·p′ (docs/theory.md, 2.8). p and λ are the depth and the
-    /// load-sharing result ([`shares`]) in this direction, p′ and λ′ those in the opposite direction.
-    /// `cosine` is that of the angle between the normals of the two contacts.
-    pub fn most_pinched(&self, cosine: f64, reach: impl Fn(&Vec3) -> Reach) -> Vec3 {
-        let pinched = |direction: &Vec3| {
-            let (one, two) = (reach(direction), reach(&-direction));
-            let deeper = if one.depth >= two.depth { one } else { two };
-            if deeper.depth <= 0.0 {
-                return deeper;
-            }
-            let shares = shares([one.depth, two.depth], cosine);
-            let slope = shares[0] * one.slope + shares[1] * two.slope;
-            Reach { depth: shares[0] * one.depth + shares[1] * two.depth, slope }
+    /// Returns the direction of the greatest depth.
+    pub fn deepest(&self, reach: impl Fn(&Vec3) -> Reach) -> Vec3 {
+        self.greatest(reach)[0].unwrap_or(self.first_b)
+    }
+}
+
+/// Depth on every side of the search's axis. With x = side·mirror, across the axis, it is
+/// base + side·offset + radius·√(q₀ + q₁·x + q₂·x²), where the last term is concave in x.
+pub(super) struct Depths {
+    /// Two perpendicular unit vectors across the axis of the search. The last term is the same on sides that
+    /// mirror each other at the first of them.
+    pub mirror_b: [Vec3; 2],
+    /// Constant part, m.
+    pub base: f64,
+    /// Components of `offset` along the two vectors of `mirror_b`, m.
+    pub offset: [f64; 2],
+    /// Radius of the circle that is seen as an ellipse, m; negative if this circle is the outer shape.
+    pub radius: f64,
+    /// q₀, q₁ and q₂.
+    pub square: [f64; 3],
+}
+
+/// Side of a contact with its load λ, weight times depth, m.
+pub(super) type Loaded = (Vec3, f64);
+
+impl Depths {
+    /// Returns the perpendicular vectors for `mirror_b`: the first is the part of `slant` across the axis of the
+    /// search, or if there is none, perpendicular to the first direction of the search.
+    pub fn mirror(across: &Across, slant: &Vec3) -> [Vec3; 2] {
+        /// Sine of the tilt up to which a circle counts as not tilted: it changes depths by less than rounding.
+        const LEAST: f64 = 1e-9;
+        let about = across.about_b;
+        let length = slant.norm();
+        if length > LEAST {
+            let first = slant / length;
+            return [first, about.cross(&first)];
+        }
+        [across.first_b.cross(&about), across.first_b]
+    }
+
+    /// Returns the two sides that share the load of one end (docs/theory.md, 2.8), the deeper first; `None` if the
+    /// deepest side carries it alone. `shrinks` is A of the theory.
+    pub fn shared(&self, shrinks: f64) -> Option<[Loaded; 2]> {
+        let moves = 1.0 - shrinks;
+        let x = self.mirrored(shrinks)?;
+        let (mean, _) = self.mean(x);
+        let y = ((1.0 - x) * (1.0 + x)).sqrt().max(f64::EPSILON);
+        let sum = mean / (shrinks + moves * x * x);
+        let difference = self.offset[1] / (moves * y);
+        if !(mean > 0.0 && difference.abs() < sum) {
+            return None;
+        }
+        let [first, second] = self.mirror_b;
+        let deeper = if difference < 0.0 { -1.0 } else { 1.0 };
+        Some([deeper, -deeper].map(|sign| (first * x + second * (sign * y), 0.5 * (sum + sign * difference))))
+    }
+
+    /// Returns the mean depth of two mirrored sides and its derivative by x.
+    fn mean(&self, x: f64) -> (f64, f64) {
+        let [q0, q1, q2] = self.square;
+        let root = (q0 + x * (q1 + x * q2)).max(0.0).sqrt();
+        let slope = self.radius * (q1 + 2.0 * q2 * x) / (2.0 * root.max(f64::EPSILON));
+        (self.base + self.offset[0] * x + self.radius * root, self.offset[0] + slope)
+    }
+
+    /// Returns the x of the greatest mean²/(A + (1 − A)·x²), if it is between −1 and 1.
+    fn mirrored(&self, shrinks: f64) -> Option<f64> {
+        /// Enough for double precision: two steps at least halve the remaining interval.
+        const STEPS: usize = 110;
+        let moves = 1.0 - shrinks;
+        let rise = |x: f64| {
+            let (mean, slope) = self.mean(x);
+            if mean > 0.0 { slope * (shrinks + moves * x * x) - moves * x * mean } else { slope }
         };
-        self.greatest(pinched)[0].unwrap_or(self.first_b)
+        let (mut low, mut high) = ((-1.0, rise(-1.0)), (1.0, rise(1.0)));
+        if !(low.1 > 0.0 && high.1 < 0.0) {
+            return None;
+        }
+        let mut was_wide = f64::INFINITY;
+        for _ in 0..STEPS {
+            let wide = high.0 - low.0;
+            if !(low.1 > 0.0 && high.1 < 0.0) || wide <= f64::EPSILON {
+                break;
+            }
+            let crawls = wide > 0.5 * was_wide;
+            was_wide = if crawls { f64::INFINITY } else { wide };
+            let share = if crawls { 0.5 } else { (low.1 / (low.1 - high.1)).clamp(1e-3, 1.0 - 1e-3) };
+            let x = low.0 + wide * share;
+            let at = rise(x);
+            *(if at > 0.0 { &mut low } else { &mut high }) = (x, at);
+        }
+        Some(if low.1 <= -high.1 { low.0 } else { high.0 })
     }
 }
 
@@ -195,6 +272,16 @@ fn turned(reach: &impl Fn(&Vec3) -> Reach, [before, middle, after]: [Vec3; 3]) -
     if low.1.abs() <= high.1.abs() { low.0 } else { high.0 }
 }
 
+/// Least A of docs/theory.md, 2.8: that of a straight hole.
+pub(super) const SHRINKS: f64 = 0.5;
+
+/// Returns the component of the unit vector `of` that is perpendicular to the unit vector `axis`.
+pub(super) fn tilt(of: &Vec3, axis: &Vec3) -> Vec3 {
+    // Twice: rounding leaves a part along the axis, which counts beside a small part across.
+    let square = |v: &Vec3| v - axis * axis.dot(v);
+    square(&square(of))
+}
+
 /// Wall of a bore, extended past its mouths.
 pub(super) struct Wall<'a>(pub &'a Bore);
 
@@ -210,10 +297,28 @@ impl Wall<'_> {
         self.hole().axis * along + side * aside
     }
 
-    /// Returns the cosine of the angle between the wall's normals on two opposite sides.
-    pub fn cosine_opposite(&self) -> f64 {
-        let [along, aside] = self.hole().wall;
-        (along - aside) * (along + aside)
+    /// Returns A of docs/theory.md, 2.8: the part of the load of one side that is the same on all sides.
+    pub fn shrinks(&self) -> f64 {
+        let [along, _] = self.hole().wall;
+        (along * along).max(SHRINKS)
+    }
+
+    /// Returns the depths on all sides of a circle with a skin (m) around it.
+    pub fn depths(&self, circle: &Circle, skin: f64, across: &Across) -> Depths {
+        let (hole, arm) = (self.hole(), circle.center_b - self.hole().ends[0]);
+        let [along, aside] = hole.wall;
+        // A point has no tilt.
+        let tilted = if circle.radius > 0.0 { circle.axis_b } else { hole.axis };
+        let (level, slant) = (hole.axis.dot(&tilted), tilt(&tilted, &hole.axis));
+        let mirror_b = Depths::mirror(across, &slant);
+        let [g0, g1] = [along * level, aside * slant.norm()];
+        Depths {
+            mirror_b,
+            base: skin + along * hole.axis.dot(&arm) - aside * hole.radii[0],
+            offset: mirror_b.map(|v| aside * v.dot(&arm)),
+            radius: circle.radius,
+            square: [(1.0 - g0) * (1.0 + g0), -2.0 * g0 * g1, -g1 * g1],
+        }
     }
 
     /// Returns the distance of the point `place` behind the wall on the given side, m; negative in the hole.

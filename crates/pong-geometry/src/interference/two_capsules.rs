@@ -11,7 +11,7 @@ use crate::primitive::{Capsule, LineSegment};
 use crate::{Vec3, any_perpendicular, divisor};
 
 /// Contact of a body with two ends.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EndContact {
     /// Point, normal and depth.
     pub interference: Interference,

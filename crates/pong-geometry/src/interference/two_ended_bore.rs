@@ -6,15 +6,18 @@
 //! capsule a segment with a skin.
 
 use super::ball_bore::{BallContacts, ball_bore, ball_mouth};
-use super::circles::{Across, Circle, Reach, Wall, shares};
+use super::circles::{Across, Circle, Depths, Loaded, Reach, SHRINKS, Wall, shares};
+use super::two_capsules::EndContact;
 use super::{Feature, Interference};
 use crate::Vec3;
 use crate::primitive::{Bore, Capsule, Frustum, LineSegment, Sphere};
 
+/// Contacts of one end of a rod, with their shares of its half spring.
+pub type RodContacts = [Option<EndContact>; 2];
+
 /// Contacts of a rod in a hole at end 0 and end 1 of the rod. Each end has half a spring and up to two
-/// contacts: the deepest, and one on the opposite side or at a second maximum of the depth. The two contacts
-/// of an end share its half spring if their normals are less than 90° apart.
-pub type EndsInBore = [BallContacts; 2];
+/// contacts: at its deepest place, or at two places that share the load.
+pub type EndsInBore = [RodContacts; 2];
 
 /// Tests a segment against a bore.
 pub fn segment_bore(segment: &LineSegment, bore: &Bore) -> EndsInBore {
@@ -31,7 +34,7 @@ pub fn cylinder_bore(cylinder: &Frustum, bore: &Bore) -> EndsInBore {
     Rod::new(cylinder.ends, cylinder.radii[0], 0.0).ends_in(bore)
 }
 
-const NOTHING: BallContacts = [None; 2];
+const NOTHING: RodContacts = [None; 2];
 
 struct Rod {
     ends: [Vec3; 2],
@@ -79,7 +82,7 @@ struct RodEnd<'a> {
 /// Contacts and position of the point at which a tip or a rim extends farthest beyond the wall. The wall is
 /// extended past the mouths.
 struct AtWall {
-    contacts: BallContacts,
+    contacts: RodContacts,
     /// Depth of that point without the skin, m; negative in the hole.
     depth: f64,
     /// Distances of that point from the mouth of this end and from the other mouth, m; positive in the hole.
@@ -89,7 +92,7 @@ struct AtWall {
 }
 
 impl RodEnd<'_> {
-    fn touched(&self) -> BallContacts {
+    fn touched(&self) -> RodContacts {
         let is_out = |mouth: usize| {
             let distance = self.exit_distance(mouth);
             distance < 0.0 || (distance == 0.0 && self.bore.mouths[mouth])
@@ -100,7 +103,7 @@ impl RodEnd<'_> {
         let wall = self.at_wall();
         if self.rod.skin > 0.0 && wall.depth <= 0.0 {
             let tip = Sphere { center: self.rod.ends[self.end], radius: self.rod.skin };
-            return self.deeper(ball_bore(&tip, self.bore), self.side_at_mouth());
+            return self.deeper(of_ball(ball_bore(&tip, self.bore)), self.side_at_mouth());
         }
         self.limited(self.with_corner(&wall))
     }
@@ -116,7 +119,7 @@ impl RodEnd<'_> {
     /// * If it is past the mouth of this end, the contacts at the mouth count. Exception: if the rod does not
     ///   lean outward, the point is no farther from the mouth than its depth, and the mouth has a contact,
     ///   the deeper of wall and mouth counts.
-    fn with_corner(&self, wall: &AtWall) -> BallContacts {
+    fn with_corner(&self, wall: &AtWall) -> RodContacts {
         let [own, other] = wall.inside;
         if self.bore.is_past(1 - self.mouth, other) {
             return NOTHING;
@@ -142,18 +145,20 @@ impl RodEnd<'_> {
         let arm = circle.center_b - hole.ends[0];
         let toward_end = rod.axis_b * if self.end == 0 { -1.0 } else { 1.0 };
         let across = Across::new(&hole.axis, &[arm, toward_end]);
-        let reach = |side: &Vec3| {
-            let Reach { depth, slope } = self.wall.reach(&circle, side);
-            Reach { depth: depth + rod.skin, slope }
-        };
-        let sides = self.sides(&across, &circle, reach);
         let pushed =
-            |side: Vec3| self.wall.pushed(&side, &circle.farthest(&self.wall.outward(&side)), rod.skin);
-        // If the point on the deepest side is too far behind the wall to be pushed, the other side has no
-        // contact either.
-        let deepest_contact = sides[0].and_then(pushed);
-        let contacts = [deepest_contact, sides[1].filter(|_| deepest_contact.is_some()).and_then(pushed)];
-        let deepest = sides[0].unwrap_or(across.first_b);
+            |side: &Vec3| self.wall.pushed(side, &circle.farthest(&self.wall.outward(side)), rod.skin);
+        let is_clear = self.is_clear(&circle, &across.first_b);
+        let depths = || self.wall.depths(&circle, rod.skin, &across);
+        let shared = if is_clear { None } else { depths().shared(self.wall.shrinks()) };
+        let (deepest, contacts) = if let Some(sides) = shared {
+            (sides[0].0, pushed_on(sides, pushed))
+        } else {
+            let deepest = match is_clear || circle.radius == 0.0 {
+                true => across.first_b,
+                false => across.deepest(|side| self.wall.reach(&circle, side)),
+            };
+            (deepest, [pushed(&deepest).map(whole), None])
+        };
         let place = circle.farthest(&self.wall.outward(&deepest));
         AtWall {
             contacts,
@@ -163,30 +168,15 @@ impl RodEnd<'_> {
         }
     }
 
-    /// Returns the sides of the wall that a tip or rim contacts, the deepest first. If the tip or rim is too
-    /// large for the hole, the second is the opposite side. Otherwise it is a second local maximum of the
-    /// depth, if there is one.
-    fn sides(&self, across: &Across, circle: &Circle, reach: impl Fn(&Vec3) -> Reach) -> [Option<Vec3>; 2] {
-        let axis = self.bore.hole.axis;
+    /// Returns `true` if a tip or rim is so far from the wall that it cannot touch it, however
+    /// the rod is tilted. `side` is any side.
+    fn is_clear(&self, circle: &Circle, side: &Vec3) -> bool {
+        let Frustum { ends, axis, .. } = self.bore.hole;
         // Projection of the circle's centre onto the axis of the hole. From there the wall is equally far on
         // all sides.
-        let beside = self.bore.hole.ends[0] + axis * axis.dot(&(circle.center_b - self.bore.hole.ends[0]));
-        let room = -self.wall.height(&across.first_b, &beside);
-        let size = circle.radius + self.rod.skin;
-        let off = (circle.center_b - beside).norm();
-        if circle.radius == 0.0 {
-            return [Some(across.first_b), (size > room).then_some(-across.first_b)];
-        }
-        if size > room {
-            let side = across.most_pinched(self.wall.cosine_opposite(), &reach);
-            let other = reach(&-side).depth > reach(&side).depth;
-            let side = if other { -side } else { side };
-            return [Some(side), Some(-side)];
-        }
-        if size + off <= room {
-            return [Some(across.first_b), None];
-        }
-        across.greatest(reach)
+        let beside = ends[0] + axis * axis.dot(&(circle.center_b - ends[0]));
+        let room = -self.wall.height(side, &beside);
+        circle.radius + self.rod.skin + (circle.center_b - beside).norm() <= room
     }
 
     fn mouth_circle(&self) -> Circle {
@@ -196,7 +186,7 @@ impl RodEnd<'_> {
 
     /// Returns the deepest of the contacts with the mouth that a capsule has: those of its side between the
     /// ends, and those of its end spheres.
-    fn side_at_mouth(&self) -> BallContacts {
+    fn side_at_mouth(&self) -> RodContacts {
         if !self.is_convex() {
             return NOTHING;
         }
@@ -204,14 +194,14 @@ impl RodEnd<'_> {
         let side = self.at_circle(is_on_rod);
         let tips = [0, 1].map(|end| {
             let tip = Sphere { center: self.rod.ends[end], radius: self.rod.skin };
-            [ball_mouth(&tip, self.bore, self.mouth), None]
+            [ball_mouth(&tip, self.bore, self.mouth).map(whole), None]
         });
         tips.into_iter().fold(side, |one, other| self.deeper(one, other))
     }
 
     /// Returns the contacts of the rod's side with the mouth. The side is extended past this end by the
     /// thickness of the wall.
-    fn line_at_mouth(&self) -> BallContacts {
+    fn line_at_mouth(&self) -> RodContacts {
         if !self.is_convex() {
             return NOTHING;
         }
@@ -226,7 +216,7 @@ impl RodEnd<'_> {
 
     /// Returns the contacts of the rod's side with the circle of the mouth, at positions along the rod (m)
     /// that `counts` accepts. Seen along the rod, the circle is an ellipse and the rod's axis a point.
-    fn at_circle(&self, counts: impl Fn(f64) -> bool) -> BallContacts {
+    fn at_circle(&self, counts: impl Fn(f64) -> bool) -> RodContacts {
         let (rod, circle) = (self.rod, self.mouth_circle());
         let arm = rod.ends[0] - circle.center_b;
         let across = Across::new(&rod.axis_b, &[arm, circle.axis_b]);
@@ -251,8 +241,8 @@ impl RodEnd<'_> {
                 (false, false) => None,
             },
         };
-        let touched = |side: Option<Vec3>| {
-            let side = side?.normalize();
+        let touched = |side: &Vec3| {
+            let side = side.normalize();
             let (place, depth) = (place_on(&side)?, reach(&side).depth);
             let holds = depth > 0.0 && (depth <= rod.side() || self.is_crossed_behind(&counts));
             holds.then(|| Interference {
@@ -262,14 +252,21 @@ impl RodEnd<'_> {
                 feature: Feature::edge(self.mouth),
             })
         };
-        if rod.side() > circle.radius {
-            let side = across.most_pinched(-1.0, reach);
-            let both = [Some(side), Some(-side)].map(touched);
-            if both.iter().all(Option::is_some) {
-                return both;
-            }
+        let level = rod.axis_b.dot(&circle.axis_b);
+        let slant = rod.axis_b.cross(&circle.axis_b);
+        let mirror_b = Depths::mirror(&across, &slant);
+        let depths = Depths {
+            mirror_b,
+            base: rod.side(),
+            offset: mirror_b.map(|v| v.dot(&beside)),
+            radius: -circle.radius,
+            square: [level * level, 0.0, slant.norm_squared()],
+        };
+        let shared = depths.shared(SHRINKS).map(|sides| pushed_on(sides, touched));
+        match shared {
+            Some(both @ [Some(_), Some(_)]) => both,
+            _ => [touched(&across.deepest(reach)).map(whole), None],
         }
-        across.greatest(reach).map(touched)
     }
 
     /// Returns `true` if the rod's axis crosses the plane of the mouth near the mouth. Two conditions must
@@ -307,7 +304,7 @@ impl RodEnd<'_> {
     /// Returns the contacts of least energy: `contacts`, or a single contact that pushes the whole rod out of
     /// the hole by a convex mouth. So the energy goes to zero as a rod leaves the hole. The contacts of a
     /// capsule stay as they are.
-    fn limited(&self, contacts: BallContacts) -> BallContacts {
+    fn limited(&self, contacts: RodContacts) -> RodContacts {
         if self.rod.skin > 0.0 || contacts == NOTHING {
             return contacts;
         }
@@ -322,39 +319,70 @@ impl RodEnd<'_> {
                 deepest_b: places[usize::from(!is_first)],
                 feature: Feature::edge(mouth),
             };
-            self.bore.mouths[mouth].then_some([Some(contact), None])
+            self.bore.mouths[mouth].then_some([Some(whole(contact)), None])
         };
         [0, 1].into_iter().filter_map(leaves).fold(contacts, |one, other| self.shallower(one, other))
     }
 
     /// Returns the contacts of greater energy: `other` if its energy is greater by more than rounding, else
     /// `one`. (For a rod along the wall both energies are equal.)
-    fn deeper(&self, one: BallContacts, other: BallContacts) -> BallContacts {
+    fn deeper(&self, one: RodContacts, other: RodContacts) -> RodContacts {
         if energy(&other) > energy(&one) + self.rounding_of(&one) { other } else { one }
     }
 
     /// Returns the contacts of less energy: `other` if its energy is less by more than rounding, else `one`.
-    fn shallower(&self, one: BallContacts, other: BallContacts) -> BallContacts {
+    fn shallower(&self, one: RodContacts, other: RodContacts) -> RodContacts {
         if energy(&other) < energy(&one) - self.rounding_of(&one) { other } else { one }
     }
 
     /// Returns the rounding error of the energy of these contacts, m².
-    fn rounding_of(&self, contacts: &BallContacts) -> f64 {
+    fn rounding_of(&self, contacts: &RodContacts) -> f64 {
         /// Error, rad, of a direction that was found where the slope is discontinuous.
         const DIRECTION: f64 = 4e-12;
         let places = [&self.rod.ends, &self.bore.hole.ends].into_iter().flatten().map(|place| place.amax());
         let reach = places.fold(self.rod.length, f64::max);
-        let depth = contacts.iter().flatten().map(|contact| contact.depth).fold(0.0, f64::max);
+        let depth = contacts.iter().flatten().map(|contact| contact.interference.depth).fold(0.0, f64::max);
         2.0 * depth * DIRECTION * reach
+    }
+}
+
+/// Returns the contacts on two sides that share the load. If what is on the first, the deeper, is too far
+/// behind the wall to be pushed, the other has no contact either.
+fn pushed_on(sides: [Loaded; 2], pushed: impl Fn(&Vec3) -> Option<Interference>) -> RodContacts {
+    let [first, second] = sides.map(|(side, load)| pushed(&side).map(|found| (found, load)));
+    let shared =
+        |(found, load): (Interference, f64)| EndContact { interference: found, share: load / found.depth };
+    match (first, second) {
+        (Some(first), Some(second)) => [Some(shared(first)), Some(shared(second))],
+        (first, _) => [first.map(|(found, _)| whole(found)), None],
+    }
+}
+
+/// Contact that carries the load of its end alone.
+fn whole(interference: Interference) -> EndContact {
+    EndContact { interference, share: 1.0 }
+}
+
+/// Returns the contacts of the ball at a tip, with their shares.
+fn of_ball(contacts: BallContacts) -> RodContacts {
+    match contacts {
+        [Some(one), Some(two)] => {
+            let loads = shares([one.depth, two.depth], one.normal_b.dot(&two.normal_b));
+            let shared = |interference: Interference, load: f64| {
+                (load > 0.0).then(|| EndContact { interference, share: load / interference.depth })
+            };
+            [shared(one, loads[0]), shared(two, loads[1])]
+        }
+        alone => alone.map(|contact| contact.map(whole)),
     }
 }
 
 /// Returns Σ λ·depth over the contacts of one end, m² (docs/theory.md, 2.8). The stored energy is a quarter
 /// of the stiffness times this sum.
-fn energy(contacts: &BallContacts) -> f64 {
-    let [one, two] = contacts;
-    let depths = [one, two].map(|contact| contact.map_or(0.0, |contact| contact.depth));
-    let cosine = one.zip(*two).map_or(0.0, |(one, two)| one.normal_b.dot(&two.normal_b));
-    let shares = shares(depths, cosine);
-    shares[0] * depths[0] + shares[1] * depths[1]
+fn energy(contacts: &RodContacts) -> f64 {
+    contacts
+        .iter()
+        .flatten()
+        .map(|contact| contact.share * contact.interference.depth * contact.interference.depth)
+        .sum()
 }

@@ -1,6 +1,6 @@
 //! Testers of primitives with two ends: line segments, capsules, cylinders and cones.
 
-use super::balls::{ball_on_piece, ball_on_triangle, emit_in_bore};
+use super::balls::{InBore, ball_on_piece, ball_on_triangle};
 use crate::frame::broad_phase::transformed::TransformedPrimitive;
 use crate::frame::narrow_phase::candidate::CandidateStatus;
 use crate::frame::narrow_phase::element_pair::{
@@ -384,7 +384,19 @@ pub(super) fn axis_in_bore(
         _ => wrong_kind(a),
     };
     for ((contacts, local), end) in contacts.iter().zip(&ends).zip(0..) {
-        emit_in_bore(pair, contacts, (local, Some(end)), found);
+        let at_end = contacts.map(|contact| {
+            contact.map(|at| (at, InBore::new(pair, pair.key_at(end), local, &at.interference)))
+        });
+        let is_active = |(_, at): &&(EndContact, InBore)| at.role == ContactRole::Active;
+        let active = at_end.iter().flatten().filter(is_active).count();
+        for (contact, at) in at_end.iter().flatten() {
+            pair.emit(at.key, &contact.interference, found, |out| {
+                out.half = true;
+                // What came from behind one wall is pushed by the other alone.
+                out.weight = if active > 1 { contact.share } else { 1.0 };
+                (out.role, out.remembered) = (at.role, Some(at.remembered));
+            });
+        }
     }
 }
 

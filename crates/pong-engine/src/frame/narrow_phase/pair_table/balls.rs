@@ -7,8 +7,10 @@ use crate::frame::narrow_phase::on_triangle::{
     Centre, on_triangle, thickness_for_ellipsoid, thickness_for_sphere,
 };
 use crate::frame::narrow_phase::side_of_bore::role_in_bore;
+use crate::state::{ContactKey, ContactRole, RecordRange};
 use pong_geometry::Vec3;
-use pong_geometry::interference::ball_bore::{BallContacts, ball_bore};
+use pong_geometry::interference::Interference;
+use pong_geometry::interference::ball_bore::ball_bore;
 use pong_geometry::interference::ellipsoid_polyhedron::ellipsoid_piece;
 use pong_geometry::interference::ellipsoid_triangle::EllipsoidOnTriangles;
 use pong_geometry::interference::point_polyhedron::point_below_face;
@@ -164,7 +166,13 @@ pub(super) fn ball_in_bore(
         _ => wrong_kind(a),
     };
     let bore = &pair.body_b().bores[pair.item_b.element as usize];
-    emit_in_bore(pair, &ball_bore(&ball, bore), (&local, None), found);
+    for contact in ball_bore(&ball, bore).iter().flatten() {
+        let at = InBore::new(pair, pair.key_at(0), &local, contact);
+        pair.emit(at.key, contact, found, |out| {
+            out.share(false);
+            (out.role, out.remembered) = (at.role, Some(at.remembered));
+        });
+    }
 }
 
 /// Sphere of zero radius at a point.
@@ -172,22 +180,19 @@ pub(super) fn ball_of(point: &Point) -> Sphere {
     Sphere { center: point.position, radius: 0.0 }
 }
 
-/// Adds the contacts of a point of A, given in A's frame (`local`), with the wall of a bore. `end` is set if
-/// the point is an end of an axis.
-pub(super) fn emit_in_bore(
-    pair: &ElementPair<'_>,
-    contacts: &BallContacts,
-    (local, end): (&Vec3, Option<u32>),
-    found: &mut ChunkCandidates<'_>,
-) {
-    for contact in contacts.iter().flatten() {
-        let key = pair.key_at(end.unwrap_or(0));
+/// Key, role and committed records of a contact with a bore.
+pub(super) struct InBore {
+    pub key: ContactKey,
+    pub role: ContactRole,
+    pub remembered: RecordRange,
+}
+
+impl InBore {
+    /// Looks up what a contact of the point `local`, in A's frame, was before.
+    pub fn new(pair: &ElementPair<'_>, key: ContactKey, local: &Vec3, contact: &Interference) -> Self {
         let remembered = pair.context.memory.under(&key);
         let role = role_in_bore(pair, &remembered, local, contact);
-        pair.emit(key, contact, found, |out| {
-            out.share(end.is_some());
-            (out.role, out.remembered) = (role, Some(remembered.range));
-        });
+        Self { key, role, remembered: remembered.range }
     }
 }
 
