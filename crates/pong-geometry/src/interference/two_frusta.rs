@@ -13,12 +13,14 @@
 //! Newton's method on the unit sphere.
 
 use super::end_disc::UPRIGHT;
-use super::least_translation::{Limits, Local, SAME, lattice, least_of_many, newton};
+use super::eight_plates::{descend, energies};
+use super::least_translation::{Limits, Local, SAME, lattice, newton, offer};
 use super::round_surface::of_frustum;
 use super::two_ended_round::EndContact;
 use super::{Feature, Interference};
 use crate::distance::Solid;
 use crate::primitive::Frustum;
+use crate::simd::LANES;
 use crate::{Mat3, Vec3, any_perpendicular};
 
 /// Contacts at A's lowest places of discs 0 and 1, then at the highest; all have the same depth, and their shares of half
@@ -50,12 +52,12 @@ pub fn two_frusta(a: &Frustum, b: &Frustum) -> PlateContacts {
 }
 
 /// One of the two bodies, seen from the origin of the search.
-struct Side {
-    ends: [Vec3; 2],
-    radii: [f64; 2],
-    axis: Vec3,
+pub(super) struct Side {
+    pub ends: [Vec3; 2],
+    pub radii: [f64; 2],
+    pub axis: Vec3,
     /// −1 for A, which lies on the plate along −n, and 1 for B.
-    sign: f64,
+    pub sign: f64,
 }
 
 /// Directions of a body that lies on a plate along one normal.
@@ -86,6 +88,11 @@ impl Side {
     fn new(frustum: &Frustum, center: &Vec3, sign: f64) -> Self {
         let ends = frustum.ends.map(|end| end - center);
         Self { ends, radii: frustum.radii, axis: frustum.axis, sign }
+    }
+
+    /// Distance of the places from the origin of the search, m, along an axis of the frame at most.
+    pub fn reach(&self) -> f64 {
+        (self.ends[0].amax() + self.radii[0]).max(self.ends[1].amax() + self.radii[1])
     }
 
     #[inline]
@@ -161,9 +168,6 @@ impl Plate {
         const SHALLOW: f64 = 0.1;
         /// Cosine above which two of the likely normals lead to one minimum: two minima may be 4° apart.
         const NEAR: f64 = 0.9995;
-        /// Steps of a descent, and the part of the energy that a step must save.
-        const FEW: (usize, f64) = (32, 1e-8);
-        const MANY: (usize, f64) = (80, 0.0);
         let first =
             [0.5, 0.0, 1.0].map(|at| of_frustum(&(a.ends[0] + (a.ends[1] - a.ends[0]) * at), b).normal_b);
         let back =
@@ -174,13 +178,7 @@ impl Plate {
         starts[..3].copy_from_slice(&first);
         starts[3..6].copy_from_slice(&back);
         starts[6..].copy_from_slice(&likely);
-        if starts.iter().any(|n| self.along(n).energy <= 0.0) {
-            return None;
-        }
-        let energy = |n: &Vec3| self.along(n).energy;
-        // Which minimum is the least shows after a few steps; only that one is followed to its bottom.
-        let descend = |n: &Vec3, known: &[Vec3]| self.descend(n, FEW, known);
-        let best = self.descend(&least_of_many(starts.into_iter(), NEAR, energy, descend)?, MANY, &[]);
+        let best = self.least_from(starts.into_iter(), NEAR)?;
         let size = [a, b].map(|body| body.radii[0].max(body.radii[1]).min(body.length));
         let depth = self.along(&best).energy.sqrt();
         if depth < SHALLOW * size[0].min(size[1]) {
@@ -191,17 +189,37 @@ impl Plate {
             [*axis, other, axis.cross(&other)]
         };
         let all = lattice(frame(&a.axis)).chain(lattice(frame(&b.axis))).chain([best]);
-        Some(self.descend(&least_of_many(all, SAME, energy, descend)?, MANY, &[]))
+        self.least_from(all, SAME)
     }
 
-    /// Returns a normal at which the energy is a local minimum, or at which it is zero, or the one after `steps` steps, or
-    /// where a step would save less than about the part `enough`, or one beside a minimum of `known`.
-    fn descend(&self, start: &Vec3, (steps, enough): (usize, f64), known: &[Vec3]) -> Vec3 {
-        /// Longest step, rad.
+    /// Returns the least of the minima to which the most promising of `directions` descend; `None` if a plate between the
+    /// two stores nothing. Of directions whose cosine is above `same`, the better one counts.
+    fn least_from(&self, mut directions: impl Iterator<Item = Vec3>, same: f64) -> Option<Vec3> {
+        let mut starts = [(f64::INFINITY, Vec3::zeros()); LANES];
+        while let Some(first) = directions.next() {
+            let mut normals = [first; LANES];
+            normals[1..].iter_mut().zip(directions.by_ref()).for_each(|(lane, normal)| *lane = normal);
+            for (energy, normal) in energies(&self.bodies, &normals).into_iter().zip(normals) {
+                if energy <= 0.0 {
+                    return None;
+                }
+                offer(&mut starts, (energy, normal), same);
+            }
+        }
+        // Which minimum is the least shows after a few steps; only that one is followed to its bottom.
+        let normals = starts.map(|(energy, normal)| if energy.is_finite() { normal } else { starts[0].1 });
+        let ends = descend(&self.bodies, &normals);
+        let least = ends.into_iter().reduce(|least, other| if other.0 < least.0 { other } else { least })?;
+        Some(self.descend(&least.1))
+    }
+
+    /// Returns a normal at which the energy is a local minimum, or at which it is zero.
+    fn descend(&self, start: &Vec3) -> Vec3 {
+        /// Steps, and the longest one, rad.
+        const STEPS: usize = 80;
         const FARTHEST: f64 = 0.3;
-        let ends = self.bodies.iter().flat_map(|body| body.ends.iter().zip(body.radii));
-        let reach = ends.map(|(end, radius)| end.amax() + radius).fold(0.0, f64::max);
-        newton(start, Limits { steps, farthest: FARTHEST, enough, known_b: known }, |n| {
+        let reach = self.bodies[0].reach().max(self.bodies[1].reach());
+        newton(start, Limits { steps: STEPS, farthest: FARTHEST, enough: 0.0, known_b: &[] }, |n| {
             let here = self.along(n);
             let (slope_b, bend) = self.derivatives(&here, n);
             Local { value: here.energy, slope_b, bend, less: 0.0, size: here.energy.sqrt() * reach }
