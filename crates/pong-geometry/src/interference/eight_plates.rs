@@ -37,6 +37,8 @@ fn descend_in_lanes<S: Simd>(simd: S, bodies: &[Side; 2], starts: &Normals) -> (
     /// Steps of a descent, and the part of the energy that a step must save.
     const STEPS: usize = 32;
     const ENOUGH: f64 = 1e-8;
+    /// A descent ends if even this many times what its next step should save would leave it above another.
+    const HOPE: f64 = 4.0;
     /// Longest step, rad.
     const FARTHEST: f64 = 0.3;
     /// Rounding of the energy, relative to its terms.
@@ -64,6 +66,8 @@ fn descend_in_lanes<S: Simd>(simd: S, bodies: &[Side; 2], starts: &Normals) -> (
         let saved = -(step_u * along_u + step_v * along_v);
         going &= simd.bits((size * all(f64::EPSILON)).below(steep));
         going &= simd.bits(saved.at_least(energy * all(ENOUGH)));
+        let least = -simd.largest((-energy).eight());
+        going &= simd.bits(all(least).at_least(energy - saved * all(HOPE)));
         if going == 0 || apart != 0 {
             break;
         }
@@ -75,8 +79,7 @@ fn descend_in_lanes<S: Simd>(simd: S, bodies: &[Side; 2], starts: &Normals) -> (
         let there = plates.about(next);
         let noise = size * all(ROUNDING);
         let steep_there = (there.slope[0] * there.slope[0] + there.slope[1] * there.slope[1]).sqrt();
-        let flatter = simd
-            .and((energy + noise).at_least(there.energy), steep_there.below(steep));
+        let flatter = simd.and((energy + noise).at_least(there.energy), steep_there.below(steep));
         let taken = going & (simd.bits(there.energy.below(energy - noise)) | simd.bits(flatter));
         let is_taken = simd.mask(taken);
         let more = (damping * all(4.0)).larger((raised_u.abs() + raised_v.abs()) * all(0.1));
@@ -152,7 +155,11 @@ impl<S: Simd> Local<S> {
         let of = |a, b| Numbers::select(mask, a, b);
         let ([a, b], [c, d]) = (self.slope, other.slope);
         let ([e, f, g], [h, i, j]) = (self.bend, other.bend);
-        Self { energy: of(self.energy, other.energy), slope: [of(a, c), of(b, d)], bend: [of(e, h), of(f, i), of(g, j)] }
+        Self {
+            energy: of(self.energy, other.energy),
+            slope: [of(a, c), of(b, d)],
+            bend: [of(e, h), of(f, i), of(g, j)],
+        }
     }
 }
 
@@ -211,7 +218,8 @@ impl<S: Simd> Plates<S> {
                 let (of_a, of_b) = ((offset - low[index]).larger(zero), (high[index] - offset).larger(zero));
                 over = over + (of_a - of_b);
                 count = count
-                    + (Numbers::select(zero.below(of_a), one, zero) + Numbers::select(zero.below(of_b), one, zero));
+                    + (Numbers::select(zero.below(of_a), one, zero)
+                        + Numbers::select(zero.below(of_b), one, zero));
                 [pressed[0][index], pressed[1][index]] = [of_a, of_b];
             }
             let step = over.over(count.larger(one));

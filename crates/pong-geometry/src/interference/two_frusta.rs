@@ -12,8 +12,8 @@
 //! well. For one normal the best offset is a root of a rising piecewise linear function. The normal is found by
 //! Newton's method on the unit sphere.
 
-use super::end_disc::UPRIGHT;
 use super::eight_plates::{descend, energies};
+use super::end_disc::UPRIGHT;
 use super::least_translation::{Limits, Local, SAME, lattice, newton, offer};
 use super::round_surface::of_frustum;
 use super::two_ended_round::EndContact;
@@ -180,21 +180,20 @@ impl Plate {
         starts[6..].copy_from_slice(&likely);
         let best = self.least_from(starts.into_iter(), NEAR)?;
         let size = [a, b].map(|body| body.radii[0].max(body.radii[1]).min(body.length));
-        let depth = self.along(&best).energy.sqrt();
-        if depth < SHALLOW * size[0].min(size[1]) {
-            return Some(best);
+        if best.0.sqrt() < SHALLOW * size[0].min(size[1]) {
+            return Some(self.descend(&best.1));
         }
         let frame = |axis: &Vec3| {
             let other = axis.cross(&square).try_normalize(1e-9).unwrap_or_else(|| any_perpendicular(axis));
             [*axis, other, axis.cross(&other)]
         };
-        let all = lattice(frame(&a.axis)).chain(lattice(frame(&b.axis))).chain([best]);
-        self.least_from(all, SAME)
+        let all = lattice(frame(&a.axis)).chain(lattice(frame(&b.axis))).chain([best.1]);
+        Some(self.descend(&self.least_from(all, SAME)?.1))
     }
 
-    /// Returns the least of the minima to which the most promising of `directions` descend; `None` if a plate between the
-    /// two stores nothing. Of directions whose cosine is above `same`, the better one counts.
-    fn least_from(&self, mut directions: impl Iterator<Item = Vec3>, same: f64) -> Option<Vec3> {
+    /// Returns the least energy to which the most promising of `directions` descend in a few steps, and its normal; `None`
+    /// if a plate between the two stores nothing. Of directions whose cosine is above `same`, the better one counts.
+    fn least_from(&self, mut directions: impl Iterator<Item = Vec3>, same: f64) -> Option<(f64, Vec3)> {
         let mut starts = [(f64::INFINITY, Vec3::zeros()); LANES];
         while let Some(first) = directions.next() {
             let mut normals = [first; LANES];
@@ -206,11 +205,10 @@ impl Plate {
                 offer(&mut starts, (energy, normal), same);
             }
         }
-        // Which minimum is the least shows after a few steps; only that one is followed to its bottom.
         let normals = starts.map(|(energy, normal)| if energy.is_finite() { normal } else { starts[0].1 });
         let ends = descend(&self.bodies, &normals);
         let least = ends.into_iter().reduce(|least, other| if other.0 < least.0 { other } else { least })?;
-        Some(self.descend(&least.1))
+        (least.0 > 0.0).then_some(least)
     }
 
     /// Returns a normal at which the energy is a local minimum, or at which it is zero.
