@@ -1,9 +1,20 @@
 //! Plates between two cylinders or cones along eight normals at a time (docs/theory.md, 2.8; `two_frusta.rs`).
 
 use super::end_disc::UPRIGHT;
-use super::two_frusta::Side;
 use crate::simd::{LANES, Numbers, Simd, Vectors, run_at_level};
 use crate::{Vec3, any_perpendicular};
+
+/// One of the two bodies, seen from the origin of the search.
+pub(super) struct Side {
+    /// Middles of the two discs, m.
+    pub ends_b: [Vec3; 2],
+    /// Radii of the two discs, m.
+    pub radii: [f64; 2],
+    /// Unit vector from end 0 to end 1.
+    pub axis_b: Vec3,
+    /// −1 for A, which lies on the plate along −n, and 1 for B; no unit.
+    pub sign: f64,
+}
 
 /// Eight unit normals, by coordinates.
 type Normals = [[f64; LANES]; 3];
@@ -14,12 +25,16 @@ pub(super) fn energies(bodies: &[Side; 2], normals: &[Vec3; LANES]) -> [f64; LAN
     run_at_level!(energies_in_lanes(bodies: [Side; 2], normals: Normals) -> [f64; LANES])
 }
 
-/// Descends from eight normals at once by Newton's method, as `least_translation::newton` does from one; returns where
-/// each came to, with its energy. All end where one comes to a plate that stores nothing.
-pub(super) fn descend(bodies: &[Side; 2], starts: &[Vec3; LANES]) -> [(f64, Vec3); LANES] {
+/// Most steps of a descent, and the part of the energy that a step must save.
+pub(super) type Limits = (usize, f64);
+
+/// Descends from eight normals at once by Newton's method on the unit sphere; returns where each came to, with its energy.
+/// All end where one comes to a plate that stores nothing.
+pub(super) fn descend(bodies: &[Side; 2], starts: &[Vec3; LANES], limits: &Limits) -> [(f64, Vec3); LANES] {
+    type Ends = ([f64; LANES], Normals);
     let starts = &by_coordinates(starts);
     let (energies, [x, y, z]) =
-        run_at_level!(descend_in_lanes(bodies: [Side; 2], starts: Normals) -> ([f64; LANES], Normals));
+        run_at_level!(descend_in_lanes(bodies: [Side; 2], starts: Normals, limits: Limits) -> Ends);
     std::array::from_fn(|lane| (energies[lane], Vec3::new(x[lane], y[lane], z[lane])))
 }
 
@@ -33,10 +48,12 @@ fn energies_in_lanes<S: Simd>(simd: S, bodies: &[Side; 2], normals: &Normals) ->
 }
 
 #[inline(always)]
-fn descend_in_lanes<S: Simd>(simd: S, bodies: &[Side; 2], starts: &Normals) -> ([f64; LANES], Normals) {
-    /// Steps of a descent, and the part of the energy that a step must save.
-    const STEPS: usize = 32;
-    const ENOUGH: f64 = 1e-8;
+fn descend_in_lanes<S: Simd>(
+    simd: S,
+    bodies: &[Side; 2],
+    starts: &Normals,
+    &(steps, enough): &Limits,
+) -> ([f64; LANES], Normals) {
     /// A descent ends if even this many times what its next step should save would leave it above another.
     const HOPE: f64 = 4.0;
     /// Longest step, rad.
@@ -49,7 +66,7 @@ fn descend_in_lanes<S: Simd>(simd: S, bodies: &[Side; 2], starts: &Normals) -> (
     let (mut normal, mut damping) = (Vectors::load(simd, starts), zero);
     let mut here = plates.about(normal);
     let mut going = u8::MAX;
-    for _ in 0..STEPS {
+    for _ in 0..steps {
         let Local { energy, slope: [along_u, along_v], bend: [uu, uv, vv] } = here;
         let apart = simd.bits(energy.at_least(zero)) & !simd.bits(zero.below(energy));
         let size = energy.sqrt() * all(plates.reach);
@@ -65,9 +82,9 @@ fn descend_in_lanes<S: Simd>(simd: S, bodies: &[Side; 2], starts: &Normals) -> (
         let step_v = (uv * along_u - raised_u * along_v).over(determinant);
         let saved = -(step_u * along_u + step_v * along_v);
         going &= simd.bits((size * all(f64::EPSILON)).below(steep));
-        going &= simd.bits(saved.at_least(energy * all(ENOUGH)));
-        let least = -simd.largest((-energy).eight());
-        going &= simd.bits(all(least).at_least(energy - saved * all(HOPE)));
+        going &= simd.bits(saved.at_least(energy * all(enough)));
+        let best = all(-simd.largest((-energy).eight()));
+        going &= simd.bits(best.at_least(energy - saved * all(HOPE)));
         if going == 0 || apart != 0 {
             break;
         }
@@ -81,6 +98,7 @@ fn descend_in_lanes<S: Simd>(simd: S, bodies: &[Side; 2], starts: &Normals) -> (
         let steep_there = (there.slope[0] * there.slope[0] + there.slope[1] * there.slope[1]).sqrt();
         let flatter = simd.and((energy + noise).at_least(there.energy), steep_there.below(steep));
         let taken = going & (simd.bits(there.energy.below(energy - noise)) | simd.bits(flatter));
+        going &= taken | simd.bits(all(f64::EPSILON).below(length));
         let is_taken = simd.mask(taken);
         let more = (damping * all(4.0)).larger((raised_u.abs() + raised_v.abs()) * all(0.1));
         damping = Numbers::select(is_taken, damping * all(0.1), more);
@@ -111,7 +129,7 @@ struct Body<S: Simd> {
     across: Vectors<S>,
     /// Arms of the nearest places, −r for A and r for B.
     arms: [Numbers<S>; 2],
-    /// What makes the height of a place that the body has not one that touches nothing; else 0.
+    /// Added to the heights of the farthest places: infinite for an apex, which has none, so that it touches nothing.
     absent: [Numbers<S>; 2],
     sign: Numbers<S>,
 }
@@ -170,9 +188,9 @@ impl<S: Simd> Body<S> {
         let [first, last] = side.radii;
         let never = |radius: f64| if radius > 0.0 { 0.0 } else { -side.sign * f64::INFINITY };
         Self {
-            ends: [Vectors::splat(simd, &side.ends[0]), Vectors::splat(simd, &side.ends[1])],
-            axis: Vectors::splat(simd, &side.axis),
-            across: Vectors::splat(simd, &any_perpendicular(&side.axis)),
+            ends: [Vectors::splat(simd, &side.ends_b[0]), Vectors::splat(simd, &side.ends_b[1])],
+            axis: Vectors::splat(simd, &side.axis_b),
+            across: Vectors::splat(simd, &any_perpendicular(&side.axis_b)),
             arms: [all(side.sign * first), all(side.sign * last)],
             absent: [all(never(first)), all(never(last))],
             sign: all(side.sign),
@@ -197,13 +215,17 @@ impl<S: Simd> Body<S> {
 impl<S: Simd> Plates<S> {
     #[inline(always)]
     fn new(simd: S, bodies: &[Side; 2]) -> Self {
-        let reach = bodies[0].reach().max(bodies[1].reach());
+        let of_side = |side: &Side| {
+            let of_ends = [0, 1].map(|end| side.ends_b[end].amax() + side.radii[end]);
+            of_ends[0].max(of_ends[1])
+        };
+        let reach = of_side(&bodies[0]).max(of_side(&bodies[1]));
         Self { bodies: [Body::new(simd, &bodies[0]), Body::new(simd, &bodies[1])], reach, simd }
     }
 
     #[inline(always)]
     fn along(&self, n: Vectors<S>) -> Along<S> {
-        /// No plate needs as many steps; see `two_frusta.rs`.
+        /// A step ends where no other place begins or ends to touch, which happens eight times at most.
         const STEPS: usize = 12;
         let (zero, one) = (n.x.all(0.0), n.x.all(1.0));
         let seen = [self.bodies[0].seen(n), self.bodies[1].seen(n)];
