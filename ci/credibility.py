@@ -95,7 +95,7 @@ def uncertainty(root):
     yield "|---|---|---|"
     yield f"| ways to draw the inputs of a campaign | {methods.count(',') + 1} | `bash ci/python test_campaign test_sensitivity` |"
     yield f"| mechanisms with a campaign of their own | {len(campaigns)} | `python3 mechanisms/run.py NAME --campaign DIR` |"
-    yield f"| worst cases that are kept and run again | {len(kept)} | `bash ci/mechanisms NAME --thorough` |"
+    yield f"| worst cases that are kept and run again | {len(kept)} | `bash ci/mechanisms NAME` |"
 
 
 def management(root):

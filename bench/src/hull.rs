@@ -1,8 +1,6 @@
 //! The convex polyhedra and the triangle of W1.
 
 use crate::ron;
-use parry3d_f64::math::Vector;
-use parry3d_f64::transformation::convex_hull;
 use pong_geometry::Vec3;
 use std::f64::consts::PI;
 
@@ -28,9 +26,12 @@ impl Hull {
             let across = (1.0 - z * z).sqrt();
             Vec3::new(across * cosine, across * sine, z).component_mul(&Vec3::from(SEMI_AXES))
         };
-        let cloud: Vec<_> = (0..vertices).map(&vertex).map(|v| Vector::new(v.x, v.y, v.z)).collect();
-        let (vertices, faces) = convex_hull(&cloud);
-        Self { vertices: vertices.iter().map(|v| Vec3::new(v.x, v.y, v.z)).collect(), faces }
+        let vertices: Vec<_> = (0..vertices).map(vertex).collect();
+        let count = vertices.len() as u32;
+        let triples =
+            (0..count).flat_map(|i| (i + 1..count).flat_map(move |j| (j + 1..count).map(move |k| [i, j, k])));
+        let faces = triples.filter_map(|face| outward(&vertices, face)).collect();
+        Self { vertices, faces }
     }
 
     /// A cone with this many sides along z, with base and tip at those of the round one.
@@ -63,6 +64,17 @@ impl Hull {
     }
 }
 
+/// A triangle of vertices of which no four lie in one plane, counter-clockwise seen from outside, if it is a face of their hull.
+fn outward(vertices: &[Vec3], face: [u32; 3]) -> Option<[u32; 3]> {
+    let [a, b, c] = face.map(|v| vertices[v as usize]);
+    let normal = (b - a).cross(&(c - a));
+    let mut others =
+        (0..).zip(vertices).filter(|(v, _)| !face.contains(v)).map(|(_, p)| normal.dot(&(p - a)) < 0.0);
+    let below = others.next()?;
+    let [i, j, k] = face;
+    others.all(|other| other == below).then_some(if below { [i, j, k] } else { [i, k, j] })
+}
+
 /// Corners of the triangle, counter-clockwise seen from +z, m.
 pub const TRIANGLE: [[f64; 3]; 3] = [[-0.25, -0.2, 0.0], [0.35, -0.2, 0.0], [-0.1, 0.4, 0.0]];
 
@@ -78,6 +90,24 @@ pub fn triangle_model() -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::collections::HashSet;
+
+    /// A closed surface of triangles has 2n − 4 of them, each edge once in each direction (Euler).
+    #[test]
+    fn the_hull_of_points_on_an_ellipsoid_is_closed_and_convex() {
+        for count in [8, 18, 66] {
+            let hull = Hull::fibonacci(count);
+            assert_eq!(hull.faces.len(), 2 * count - 4);
+            let edges: HashSet<_> =
+                hull.faces.iter().flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a)]).collect();
+            assert_eq!(edges.len(), 3 * hull.faces.len());
+            assert!(edges.iter().all(|&(from, to)| edges.contains(&(to, from))));
+            for (normal, offset) in hull.planes() {
+                assert!(hull.vertices.iter().all(|vertex| normal.dot(vertex) < offset + 1e-12));
+                assert!(offset > 0.0);
+            }
+        }
+    }
 
     #[test]
     fn a_cone_of_many_sides_is_convex_closed_and_nearly_as_large_as_the_round_one() {

@@ -201,6 +201,7 @@ def rows(thorough):
     yield "from the trunk to the platform, level training", handed_over(TRAINING.step)
     yield "off-nominal", off_nominal(TRAINING.step)
     yield "restart", restart(TRAINING.step)
+    yield "worst case of the campaign", conclusion.again(campaign.STUDY, d.HERE)
     if thorough:
         same = handover.same_bits_after_restart(TRAINING.step, 13.0, 2.0)
         yield "restart of the whole", [Fact("restarted while the second arm grasps: the same bits", same)]
@@ -210,4 +211,3 @@ def rows(thorough):
         yield "limits of capture at half the step", captures(TRAINING.step / 2, EDGES)
         yield "one seat, level analysis", seated(ANALYSIS.step)
         yield "from the trunk to the platform, level analysis", handed_over(ANALYSIS.step)
-        yield "worst case of the campaign", conclusion.again(campaign.STUDY, d.HERE)

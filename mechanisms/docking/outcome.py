@@ -218,6 +218,7 @@ def rows(thorough):
     yield "ring on its legs", rig_ring.rows()
     yield "level training", trained()
     yield "restarts", restarts()
+    yield "worst case of the campaign", conclusion.again(campaign.STUDY, d.HERE)
     if thorough:
         yield "unequal pushers", rig_hard.unequal(d.ANALYSIS)
         yield "attenuation", attenuation(d.ANALYSIS)
@@ -228,4 +229,3 @@ def rows(thorough):
         yield "limits", limits()
         yield "turned", elsewhere()
         yield "a catch goes round the edge of its striker", flagged.rows()
-        yield "worst case of the campaign", conclusion.again(campaign.STUDY, d.HERE)

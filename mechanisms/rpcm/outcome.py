@@ -166,6 +166,7 @@ def rows(thorough):
     yield "the whole, with the gripper, level training", exchanged(d.TRAINING)
     yield "weak jaws", weak_jaws()
     yield "restart", [Fact("restarted on the way in: the same bits", exchange.same_bits_after_restart())]
+    yield "worst case of the campaign", conclusion.again(campaign.STUDY, d.HERE)
     if thorough:
         yield "the whole, level analysis", exchanged(d.ANALYSIS)
         yield "the limit of the jam", limit()
@@ -173,4 +174,3 @@ def rows(thorough):
         yield "jam and cure, level analysis", jammed(d.ANALYSIS)
         yield "the opposite, level analysis", opposite(d.ANALYSIS)
         yield "half the step", half_step()
-        yield "worst case of the campaign", conclusion.again(campaign.STUDY, d.HERE)

@@ -5,7 +5,9 @@ pub mod mujoco;
 #[cfg(feature = "ode")]
 pub mod ode;
 mod ours;
+#[cfg(feature = "parry")]
 pub mod parry;
+#[cfg(feature = "parry")]
 pub mod parry_pairs;
 
 #[cfg(any(feature = "mujoco", feature = "ode"))]
