@@ -31,7 +31,7 @@ const KNOWN: [(&str, u64, u64); 9] = [
     ("crowd", 0xa6efc9208413bcf4, 0x6900a47b22bdebb9),
     ("bowl", 0x776b53145068c012, 0xf1abfd87a2c723bd),
     ("swarm", 0xd3238414cdd36465, 0x4ab17f5dbf908e74),
-    ("round", 0x1235dbf53736d3d1, 0xae226bf4803fe885),
+    ("round", 0xfb16755882a06eb9, 0x24ce10c9be93d0da),
 ];
 
 /// A scene run by the caller alone, with the data needed to continue from any frame.
