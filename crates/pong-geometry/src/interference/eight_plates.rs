@@ -54,8 +54,6 @@ fn descend_in_lanes<S: Simd>(
     starts: &Normals,
     &(steps, enough): &Limits,
 ) -> ([f64; LANES], Normals) {
-    /// A descent ends if even this many times what its next step should save would leave it above another.
-    const HOPE: f64 = 4.0;
     /// Longest step, rad.
     const FARTHEST: f64 = 0.3;
     /// Rounding of the energy, relative to its terms.
@@ -83,8 +81,6 @@ fn descend_in_lanes<S: Simd>(
         let saved = -(step_u * along_u + step_v * along_v);
         going &= simd.bits((size * all(f64::EPSILON)).below(steep));
         going &= simd.bits(saved.at_least(energy * all(enough)));
-        let best = all(-simd.largest((-energy).eight()));
-        going &= simd.bits(best.at_least(energy - saved * all(HOPE)));
         if going == 0 || apart != 0 {
             break;
         }
@@ -251,8 +247,7 @@ impl<S: Simd> Plates<S> {
             offset = offset - step;
         }
         let mut energy = zero;
-        for index in 0..4 {
-            let [of_a, of_b] = [pressed[0][index], pressed[1][index]];
+        for (&of_a, &of_b) in pressed[0].iter().zip(&pressed[1]) {
             energy = energy + (of_a * of_a + of_b * of_b);
         }
         Along { energy, pressed, seen }
