@@ -180,6 +180,18 @@ pub(super) fn newton(start: &Vec3, limits: Limits<'_>, at: impl Fn(&Vec3) -> Loc
 /// Cosine above which two directions of a [`lattice`] lead to one minimum.
 pub(super) const SAME: f64 = 0.9;
 
+/// Adds a direction to the least ones, with its value. The list is sorted, and of directions whose cosine is above `same`
+/// only the better one is in it.
+pub(super) fn offer(starts: &mut [(f64, Vec3)], (value, direction): (f64, Vec3), same: f64) {
+    let near = starts.iter().position(|(_, other)| other.dot(&direction) > same).unwrap_or(starts.len() - 1);
+    if value >= starts[near].0 {
+        return;
+    }
+    let place = starts.iter().position(|(other, _)| value < *other).unwrap_or(near);
+    starts[place..=near].rotate_right(1);
+    starts[place] = (value, direction);
+}
+
 /// Returns the best of the normals to which the most promising of `directions` descend. `overlap` is D,
 /// `to_minimum` the descent; it is told the minima that others came to. Of directions whose cosine is above `same`, the
 /// better one counts.
@@ -193,15 +205,7 @@ pub(super) fn least_of_many(
     const DESCENTS: usize = 8;
     let mut starts = [(f64::INFINITY, Vec3::zeros()); DESCENTS];
     for direction in directions {
-        let value = overlap(&direction);
-        // The list is sorted, and no two of its directions are near each other.
-        let near = starts.iter().position(|(_, other)| other.dot(&direction) > same).unwrap_or(DESCENTS - 1);
-        if value >= starts[near].0 {
-            continue;
-        }
-        let place = starts.iter().position(|(other, _)| value < *other).unwrap_or(near);
-        starts[place..=near].rotate_right(1);
-        starts[place] = (value, direction);
+        offer(&mut starts, (overlap(&direction), direction), same);
     }
     let mut known = [Vec3::zeros(); DESCENTS];
     let mut best: Option<(f64, Vec3)> = None;

@@ -14,6 +14,7 @@ mod behind_triangle;
 pub mod capsule_edge;
 pub mod capsule_polyhedron;
 mod circles;
+mod eight_plates;
 pub mod ellipsoid_ellipsoid;
 pub mod ellipsoid_math;
 pub mod ellipsoid_plane;

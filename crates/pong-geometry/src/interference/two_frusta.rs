@@ -10,16 +10,18 @@
 //!
 //! Forces and moments of the two sides are then in balance, so that the forces at A's places are the wrench on B as
 //! well. For one normal the best offset is a root of a rising piecewise linear function. The normal is found by
-//! Newton's method on the unit sphere.
+//! Newton's method on the unit sphere, from eight normals at a time (`eight_plates.rs`).
 
+use super::eight_plates::{Limits, Side, descend, energies};
 use super::end_disc::UPRIGHT;
-use super::least_translation::{Limits, Local, SAME, lattice, least_of_many, newton};
+use super::least_translation::{SAME, lattice, offer};
 use super::round_surface::of_frustum;
 use super::two_ended_round::EndContact;
 use super::{Feature, Interference};
 use crate::distance::Solid;
 use crate::primitive::Frustum;
-use crate::{Mat3, Vec3, any_perpendicular};
+use crate::simd::LANES;
+use crate::{Vec3, any_perpendicular};
 
 /// Contacts at A's lowest places of discs 0 and 1, then at the highest; all have the same depth, and their shares of half
 /// a spring may exceed 1.
@@ -42,31 +44,11 @@ pub fn two_frusta(a: &Frustum, b: &Frustum) -> PlateContacts {
     let force: f64 = at.pressed[0].iter().sum();
     let depth = at.energy / force.max(f64::MIN_POSITIVE);
     [0, 1, 2, 3].map(|index| {
-        let (place, pressed) = (between.bodies[0].place(&at.facing[0], index), at.pressed[0][index]);
+        let (place, pressed) = (between.bodies[0].place(&at.up_b[0], index), at.pressed[0][index]);
         let interference =
             Interference { depth, normal_b: normal, deepest_b: place + center, feature: Feature::WHOLE };
         (pressed > 0.0).then_some(EndContact { interference, share: 2.0 * pressed / depth })
     })
-}
-
-/// One of the two bodies, seen from the origin of the search.
-struct Side {
-    ends: [Vec3; 2],
-    radii: [f64; 2],
-    axis: Vec3,
-    /// −1 for A, which lies on the plate along −n, and 1 for B.
-    sign: f64,
-}
-
-/// Directions of a body that lies on a plate along one normal.
-#[derive(Clone, Copy)]
-struct Facing {
-    /// Unit vector across the axis, level with the plate.
-    around: Vec3,
-    /// Unit vector across the axis, towards the normal.
-    up: Vec3,
-    /// Sine of the angle between axis and normal; at least that of rounding.
-    sine: f64,
 }
 
 /// Plate of the least energy along one normal.
@@ -75,7 +57,8 @@ struct Along {
     energy: f64,
     /// Depths of the places beyond the plate, per body, m; 0 for those that do not touch.
     pressed: [[f64; 4]; 2],
-    facing: [Facing; 2],
+    /// Unit vectors across the axes, towards the normal.
+    up_b: [Vec3; 2],
 }
 
 struct Plate {
@@ -85,16 +68,20 @@ struct Plate {
 impl Side {
     fn new(frustum: &Frustum, center: &Vec3, sign: f64) -> Self {
         let ends = frustum.ends.map(|end| end - center);
-        Self { ends, radii: frustum.radii, axis: frustum.axis, sign }
+        Self { ends_b: ends, radii: frustum.radii, axis_b: frustum.axis, sign }
     }
 
+    /// Returns the unit vector across the axis, towards a normal.
     #[inline]
-    fn facing(&self, n: &Vec3) -> Facing {
-        let level = n.cross(&self.axis);
+    fn up(&self, n: &Vec3) -> Vec3 {
+        let level = n.cross(&self.axis_b);
         let sine = level.norm();
-        let around =
-            if sine > UPRIGHT { level / sine.max(f64::MIN_POSITIVE) } else { any_perpendicular(&self.axis) };
-        Facing { around, up: self.axis.cross(&around).normalize(), sine: sine.max(UPRIGHT) }
+        let around = if sine > UPRIGHT {
+            level / sine.max(f64::MIN_POSITIVE)
+        } else {
+            any_perpendicular(&self.axis_b)
+        };
+        self.axis_b.cross(&around).normalize()
     }
 
     /// Arm of a place from the middle of its disc, as a multiple of the vector towards the normal, m. Places 0 and 1 are
@@ -106,14 +93,14 @@ impl Side {
     }
 
     #[inline]
-    fn place(&self, facing: &Facing, index: usize) -> Vec3 {
-        self.ends[index % 2] + facing.up * self.arm(index)
+    fn place(&self, up: &Vec3, index: usize) -> Vec3 {
+        self.ends_b[index % 2] + up * self.arm(index)
     }
 
     /// Heights of the four places along the normal, or `absent` for what the body has not: an apex is one place, not two.
     #[inline]
-    fn heights(&self, n: &Vec3, facing: &Facing, absent: f64) -> [f64; 4] {
-        let (ends, up) = (self.ends.map(|end| n.dot(&end)), n.dot(&facing.up));
+    fn heights(&self, n: &Vec3, up: &Vec3, absent: f64) -> [f64; 4] {
+        let (ends, up) = (self.ends_b.map(|end| n.dot(&end)), n.dot(up));
         let far =
             |end: usize| if self.radii[end] > 0.0 { ends[end] + up * self.arm(end + 2) } else { absent };
         [ends[0] + up * self.arm(0), ends[1] + up * self.arm(1), far(0), far(1)]
@@ -126,10 +113,10 @@ impl Plate {
         /// A step ends where no other place begins or ends to touch, which happens eight times at most.
         const STEPS: usize = 12;
         let [a, b] = &self.bodies;
-        let facing = [a.facing(n), b.facing(n)];
+        let up_b = [a.up(n), b.up(n)];
         // A's places touch the plate if they are below its offset, B's if they are above.
-        let low = a.heights(n, &facing[0], f64::INFINITY);
-        let high = b.heights(n, &facing[1], f64::NEG_INFINITY);
+        let low = a.heights(n, &up_b[0], f64::INFINITY);
+        let high = b.heights(n, &up_b[1], f64::NEG_INFINITY);
         let lowest = low.into_iter().fold(f64::INFINITY, f64::min);
         let highest = high.into_iter().fold(f64::NEG_INFINITY, f64::max);
         let mut offset = 0.5 * (lowest + highest);
@@ -152,7 +139,7 @@ impl Plate {
         }
         let pressed = [low.map(|low| (offset - low).max(0.0)), high.map(|high| (high - offset).max(0.0))];
         let energy = pressed.iter().flatten().map(|pressed| pressed * pressed).sum();
-        Along { energy, pressed, facing }
+        Along { energy, pressed, up_b }
     }
 
     /// Returns the normal at which the plate stores least; `None` if a plate separates the bodies.
@@ -161,9 +148,6 @@ impl Plate {
         const SHALLOW: f64 = 0.1;
         /// Cosine above which two of the likely normals lead to one minimum: two minima may be 4° apart.
         const NEAR: f64 = 0.9995;
-        /// Steps of a descent, and the part of the energy that a step must save.
-        const FEW: (usize, f64) = (32, 1e-8);
-        const MANY: (usize, f64) = (80, 0.0);
         let first =
             [0.5, 0.0, 1.0].map(|at| of_frustum(&(a.ends[0] + (a.ends[1] - a.ends[0]) * at), b).normal_b);
         let back =
@@ -174,38 +158,45 @@ impl Plate {
         starts[..3].copy_from_slice(&first);
         starts[3..6].copy_from_slice(&back);
         starts[6..].copy_from_slice(&likely);
-        if starts.iter().any(|n| self.along(n).energy <= 0.0) {
-            return None;
-        }
-        let energy = |n: &Vec3| self.along(n).energy;
-        // Which minimum is the least shows after a few steps; only that one is followed to its bottom.
-        let descend = |n: &Vec3, known: &[Vec3]| self.descend(n, FEW, known);
-        let best = self.descend(&least_of_many(starts.into_iter(), NEAR, energy, descend)?, MANY, &[]);
+        let best = self.least_from(starts.into_iter(), NEAR)?;
         let size = [a, b].map(|body| body.radii[0].max(body.radii[1]).min(body.length));
-        let depth = self.along(&best).energy.sqrt();
-        if depth < SHALLOW * size[0].min(size[1]) {
-            return Some(best);
+        if best.0.sqrt() < SHALLOW * size[0].min(size[1]) {
+            return Some(self.bottom(best.1));
         }
         let frame = |axis: &Vec3| {
             let other = axis.cross(&square).try_normalize(1e-9).unwrap_or_else(|| any_perpendicular(axis));
             [*axis, other, axis.cross(&other)]
         };
-        let all = lattice(frame(&a.axis)).chain(lattice(frame(&b.axis))).chain([best]);
-        Some(self.descend(&least_of_many(all, SAME, energy, descend)?, MANY, &[]))
+        let all = lattice(frame(&a.axis)).chain(lattice(frame(&b.axis))).chain([best.1]);
+        Some(self.bottom(self.least_from(all, SAME)?.1))
     }
 
-    /// Returns a normal at which the energy is a local minimum, or at which it is zero, or the one after `steps` steps, or
-    /// where a step would save less than about the part `enough`, or one beside a minimum of `known`.
-    fn descend(&self, start: &Vec3, (steps, enough): (usize, f64), known: &[Vec3]) -> Vec3 {
-        /// Longest step, rad.
-        const FARTHEST: f64 = 0.3;
-        let ends = self.bodies.iter().flat_map(|body| body.ends.iter().zip(body.radii));
-        let reach = ends.map(|(end, radius)| end.amax() + radius).fold(0.0, f64::max);
-        newton(start, Limits { steps, farthest: FARTHEST, enough, known_b: known }, |n| {
-            let here = self.along(n);
-            let (slope_b, bend) = self.derivatives(&here, n);
-            Local { value: here.energy, slope_b, bend, less: 0.0, size: here.energy.sqrt() * reach }
-        })
+    /// Returns the normal of the minimum beside a normal.
+    fn bottom(&self, normal: Vec3) -> Vec3 {
+        const MANY: Limits = (80, 0.0);
+        descend(&self.bodies, &[normal; LANES], &MANY)[0].1
+    }
+
+    /// Returns the least energy to which the most promising of `directions` descend in a few steps, and its normal; `None`
+    /// if a plate between the two stores nothing. Of directions whose cosine is above `same`, the better one counts.
+    fn least_from(&self, mut directions: impl Iterator<Item = Vec3>, same: f64) -> Option<(f64, Vec3)> {
+        const FEW: Limits = (32, 1e-8);
+        let mut starts = [(f64::INFINITY, Vec3::zeros()); LANES];
+        while let Some(first) = directions.next() {
+            let mut normals = [first; LANES];
+            normals[1..].iter_mut().zip(directions.by_ref()).for_each(|(lane, normal)| *lane = normal);
+            for (energy, normal) in energies(&self.bodies, &normals).into_iter().zip(normals) {
+                if energy <= 0.0 {
+                    return None;
+                }
+                offer(&mut starts, (energy, normal), same);
+            }
+        }
+        let normals = starts.map(|(energy, normal)| if energy.is_finite() { normal } else { starts[0].1 });
+        let ends = descend(&self.bodies, &normals, &FEW);
+        // Which minimum is the least shows after a few steps; only that one is followed to its bottom.
+        let least = ends.into_iter().reduce(|least, other| if other.0 < least.0 { other } else { least })?;
+        (least.0 > 0.0).then_some(least)
     }
 
     /// Returns `true` if the middle of the load on one body surely lies in the other. `center` is the origin of the search.
@@ -214,35 +205,11 @@ impl Plate {
         const SURELY: f64 = 1e-12;
         let lies_in = |body: usize, other: &Frustum| {
             let load: f64 = at.pressed[body].iter().sum();
-            let place = |index: usize| self.bodies[body].place(&at.facing[body], index);
+            let place = |index: usize| self.bodies[body].place(&at.up_b[body], index);
             let moment = (0..4).map(|index| place(index) * at.pressed[body][index]).sum::<Vec3>();
             let middle = moment / load.max(f64::MIN_POSITIVE) + center;
             load > 0.0 && of_frustum(&middle, other).distance < -SURELY * other.length
         };
         lies_in(0, b) || lies_in(1, a)
-    }
-
-    /// Returns the derivative of half the energy when the normal turns, in the tangent plane, and the second derivative.
-    fn derivatives(&self, at: &Along, n: &Vec3) -> (Vec3, Mat3) {
-        let (mut slope, mut bend, mut mixed, mut count) = (Vec3::zeros(), Mat3::zeros(), Vec3::zeros(), 0.0);
-        for (body, sign) in [(0, -1.0), (1, 1.0)] {
-            let Facing { around, sine, .. } = &at.facing[body];
-            let mut turning = 0.0;
-            for index in (0..4).filter(|&index| at.pressed[body][index] > 0.0) {
-                let (side, pressed) = (&self.bodies[body], at.pressed[body][index]);
-                let place = side.place(&at.facing[body], index);
-                slope += place * (sign * pressed);
-                bend += place * place.transpose();
-                // The height of a rim's lowest place bends by the radius over the sine.
-                turning += sign * pressed * side.arm(index) / sine;
-                mixed -= place;
-                count += 1.0;
-            }
-            bend += around * around.transpose() * turning;
-        }
-        let along = n.dot(&slope);
-        // The best offset follows the normal.
-        let bend = bend - mixed * mixed.transpose() / f64::max(count, 1.0) - Mat3::identity() * along;
-        (slope - n * along, bend)
     }
 }
