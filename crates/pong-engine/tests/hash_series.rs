@@ -31,7 +31,7 @@ const KNOWN: [(&str, u64, u64); 9] = [
     ("crowd", 0xa6efc9208413bcf4, 0x6900a47b22bdebb9),
     ("bowl", 0x776b53145068c012, 0xf1abfd87a2c723bd),
     ("swarm", 0xd3238414cdd36465, 0x4ab17f5dbf908e74),
-    ("round", 0x69bde36f54f9f02f, 0xd48f815dc286ee22),
+    ("round", 0x2ebe1962fd7b863b, 0x83a8d126e46c4d3d),
 ];
 
 /// A scene run by the caller alone, with the data needed to continue from any frame.
