@@ -28,7 +28,7 @@ const APART_COSINE: f64 = -1e-14;
 
 /// Distance, relative to the radius, by which a corner may be in front of a plane that has the surface behind it.
 const BEHIND_SLACK: f64 = 1e-9;
-/// The same for the plane on which a cylinder or a cone stands. Vertices in single precision, 10 m from the origin, are off
+/// Such a distance for the plane on which a cylinder or a cone stands. Vertices in single precision, 10 m from the origin, are off
 /// by some 4e-7 m, and planes of small triangles by ten times that at the far rim.
 const FLAT_SLACK: f64 = 1e-4;
 /// Difference of two unit normals up to which two faces count as one plane.
