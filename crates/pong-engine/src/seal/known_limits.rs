@@ -55,8 +55,8 @@ const LIMITS: &[KnownLimit] = &[
         a: &[Cylinder, Cone],
         b: &[Triangle],
         may_show: always,
-        text: "where the triangles that it touches are not convex, a flat end has half of the stiffness across a fold of any size \
-               (1e-9 m of noise in a floor are enough), steps by ½kδ as its rim passes an edge, and feels no corner inside its \
+        text: "where the triangles that it touches are not convex, a flat end has half of the stiffness across a fold that is \
+               no rounding (1e-4 of its radius), steps by ½kδ as its rim passes an edge, and feels no corner inside its \
                rim; a side over an edge has half of the stiffness once its axis has reached the surface, in one step; stand \
                drums on a Plane or a convex Polyhedron, keep wheels on their ground, and axes above edges",
     },

@@ -4,6 +4,7 @@
 use crate::common::*;
 use pong_geometry::{Quat, Vec3, Wrench};
 use pong_testkit::Random;
+use std::cell::RefCell;
 
 const K: f64 = 1e4;
 /// Stiffness of the pair: two equal springs in series.
@@ -417,6 +418,66 @@ fn the_wrench_of_a_standing_drum_derives_from_its_energy() {
             }
             println!("{name} {index}: {compared}, {kinks} at kinks, off by {worst:e}");
             assert!(compared > 50, "{name} {index}: {compared}");
+        }
+    }
+}
+
+/// A floor that is flat but for rounding, in one fold or at each vertex, holds a standing drum as a plane does: kδ in its
+/// middle, level or tilted by little, its disc above two triangles or hundreds.
+#[test]
+fn a_floor_of_rounded_vertices_holds_a_standing_drum_as_a_plane() {
+    let random = RefCell::new(Random(29));
+    for (drum, end) in STANDING.into_iter().flat_map(|drum| [(drum, 0), (drum, 1)]) {
+        for off in [0.0, 1e-13, 1e-11, 1e-9, 1e-7, 5e-7] {
+            let rounded = |is_fold: bool, x: f64| match is_fold {
+                true => off * x.abs(),
+                false => random.borrow_mut().between(-off, off),
+            };
+            for (is_fold, n) in [(true, 2), (true, 20), (false, 6), (false, 20), (false, 40)] {
+                let mut rig =
+                    on(&drum, &plate_mesh("p", n, 2.0, |x, y| Vec3::new(x, y, rounded(is_fold, x))));
+                for (x, tilt) in [(0.0, 0.0), (0.013, 0.0), (0.31, 1e-9), (-0.2, 1e-7), (0.07, -1e-7)] {
+                    let turn = upright(end, Vec3::new(tilt, 0.7 * tilt, 0.3));
+                    let (wrench, _) = set_at(&mut rig, (Vec3::new(x, 0.03, 0.5 * drum.length - DEPTH), turn));
+                    let (force, moment) =
+                        (wrench.force / (PAIR * DEPTH), wrench.moment / (PAIR * DEPTH * drum.radii[end]));
+                    let most = 40.0 * off / DEPTH + 3.0 * tilt.abs() * drum.radii[end] / DEPTH + 1e-9;
+                    let what = format!(
+                        "{drum:?} {end}: {off:e} {is_fold} {n} at {x}, {tilt:e}: {force:?} {moment:?}"
+                    );
+                    assert!((force - Vec3::z()).norm() <= most && moment.norm() <= most, "{what}");
+                }
+            }
+        }
+    }
+}
+
+/// A plate in single precision, turned and 6 m from its origin, as modellers export it, holds a standing drum with kδ in its
+/// middle wherever the drum stands on it.
+#[test]
+fn an_exported_plate_holds_a_standing_drum() {
+    let (turn, offset) = (Quat::from_scaled_axis(Vec3::new(0.4, -0.7, 1.1)), Vec3::new(3.0, -2.0, 5.0));
+    let single = |v: Vec3| v.map(|v| f64::from(v as f32));
+    let mut random = Random(31);
+    for (drum, end) in STANDING.into_iter().flat_map(|drum| [(drum, 0), (drum, 1)]) {
+        for n in [1, 4, 15, 40] {
+            let mut rig =
+                on(&drum, &plate_mesh("p", n, 2.0, |x, y| single(turn * Vec3::new(x, y, 0.0) + offset)));
+            for _ in 0..20 {
+                let place = Vec3::new(
+                    random.between(-0.5, 0.5),
+                    random.between(-0.5, 0.5),
+                    0.5 * drum.length - DEPTH,
+                );
+                let upright = upright(end, Vec3::z() * random.between(0.0, 3.0));
+                let (wrench, _) = set_at(&mut rig, (turn * place + offset, turn * upright));
+                let [force, moment] =
+                    [wrench.force, wrench.moment / drum.radii[end]].map(|v| v / (PAIR * DEPTH));
+                assert!(
+                    (force - turn * Vec3::z()).norm() < 5e-3 && moment.norm() < 1e-2,
+                    "{drum:?} {end}: {n} at {place:?}: {force:?} {moment:?}"
+                );
+            }
         }
     }
 }

@@ -146,6 +146,38 @@ impl EndDisc<'_> {
         thickness: f64,
     ) -> Option<TriangleContact> {
         let view = TriangleView::new(set, triangle);
+        let highest = self.highest_below(&view, thickness)?;
+        let foot = highest.deepest_b + view.normal * highest.depth;
+        is_over(set, &view, (&foot, 0.0))
+            .then_some(TriangleContact { interference: highest, standing: Standing::Behind })
+    }
+
+    /// Returns the contact of the middle of the disc with a triangle that it is over, but for little, if all of the rim is
+    /// below the plane of the triangle, and the middle by less than `thickness`, m.
+    pub fn middle_on_triangle(
+        &self,
+        set: &TriangleSet,
+        triangle: u32,
+        thickness: f64,
+    ) -> Option<Interference> {
+        /// Distance over an edge, relative to the radius: in a fold that is flat but for rounding no triangle is over
+        /// a place below the line of both.
+        const SLACK: f64 = 1e-4;
+        let view = TriangleView::new(set, triangle);
+        let highest = self.highest_below(&view, thickness)?;
+        let deepest_b = self.frustum.ends[self.end];
+        let depth = -view.height(&deepest_b);
+        let foot = deepest_b + view.normal * depth;
+        is_over(set, &view, (&foot, SLACK * self.radius())).then_some(Interference {
+            depth,
+            deepest_b,
+            ..highest
+        })
+    }
+
+    /// Returns the contact of the highest point of the rim with the plane of a triangle below which it lies. The centre is
+    /// then below it, too, by less than `thickness`, m.
+    fn highest_below(&self, view: &TriangleView, thickness: f64) -> Option<Interference> {
         let center = &self.frustum.ends[self.end];
         let height = view.height(center);
         if height >= 0.0 || height <= -thickness {
@@ -153,15 +185,17 @@ impl EndDisc<'_> {
         }
         let to_lowest = self.lowest(&view.normal);
         let depth = -height - view.normal.dot(&to_lowest);
-        let highest = self.highest(&Interference {
+        self.highest(&Interference {
             depth,
             normal_b: view.normal,
             deepest_b: center + to_lowest,
-            feature: Feature::face(triangle as usize),
-        })?;
-        let foot = highest.deepest_b + view.normal * highest.depth;
-        let edges = TriangleEdges::new(set, &view);
-        let is_over = !(0..3).any(|k| edges.is_beyond(k, &foot));
-        is_over.then_some(TriangleContact { interference: highest, standing: Standing::Behind })
+            feature: Feature::face(view.index as usize),
+        })
     }
+}
+
+/// Returns `true` if a point is over a triangle, or beyond its edges by no more than `slack`, m.
+fn is_over(set: &TriangleSet, view: &TriangleView, (point, slack): (&Vec3, f64)) -> bool {
+    let edges = TriangleEdges::new(set, view);
+    (0..3).all(|k| !edges.is_beyond(k, point) || edges.beyond(k, point) <= slack)
 }

@@ -32,6 +32,11 @@ impl Stand {
         first > 0.0 && last > 0.0 && high == 0.0 && other == 0.0
     }
 
+    /// Returns true if the highest place of a disc is below the plane, too.
+    pub fn is_sunk(&self) -> bool {
+        self.at.depths[2] > 0.0 || self.at.depths[3] > 0.0
+    }
+
     /// Returns F, and the derivatives of half of it when the plane turns about its point.
     fn turning(&self, frustum: &Frustum) -> Local {
         self.at.about((frustum, size_of(frustum)), &self.point_b, &self.normal_b)

@@ -28,6 +28,9 @@ const APART_COSINE: f64 = -1e-14;
 
 /// Distance, relative to the radius, by which a corner may be in front of a plane that has the surface behind it.
 const BEHIND_SLACK: f64 = 1e-9;
+/// Such a distance for the plane on which a cylinder or a cone stands. Vertices in single precision, 10 m from the origin, are off
+/// by some 4e-7 m, and planes of small triangles by ten times that at the far rim.
+const FLAT_SLACK: f64 = 1e-4;
 /// Difference of two unit normals up to which two faces count as one plane.
 const PLANE_SLACK: f64 = 1e-7;
 /// Most planes through triangles, edges and vertices beside one cylinder or cone.
@@ -48,16 +51,25 @@ pub(super) enum Touch {
     /// An end disc is behind some face: it stands on it, or the body lies on a block with its flat end beside that of the
     /// block.
     Behind,
+    /// No edge is beside the axis, but a disc is below a face, and no plane holds its lowest and its highest place: it may
+    /// stand on faces that are nearly one plane.
+    OnFaces,
 }
 
 impl Touch {
-    /// Judges the contacts of the ends and those between them. The ends of a capsule, and of a cylinder or a cone, yield as
-    /// one if an edge is beside the axis; otherwise only faces push, and each end yields for itself. They do not where an
-    /// end came from behind, or where the ball of a capsule is behind the surface.
+    /// Judges the contacts of the ends and those between them with edges, or with the face under a disc. The ends of a
+    /// capsule, and of a cylinder or a cone, yield as one if an edge is beside the axis; otherwise only faces push, and
+    /// each end yields for itself. They do not where an end came from behind, or where the ball of a capsule is behind the
+    /// surface.
     pub fn new(ends: &[ContactCandidate], middle: &[ContactCandidate], is_disc: bool) -> Self {
+        let mut beside = middle.iter().filter(|contact| contact.takes_part());
         let on_triangles = middle.first().is_some_and(|contact| contact.kind_b == PrimitiveKind::Triangle);
-        if !on_triangles || !middle.iter().any(ContactCandidate::takes_part) {
+        if !on_triangles || beside.clone().next().is_none() {
             return Self::Apart;
+        }
+        if beside.all(|contact| contact.feature.is_face()) {
+            let is_wrong = ends.iter().any(|contact| contact.role == ContactRole::WrongSide);
+            return if is_wrong || hold_a_disc(ends) { Self::Apart } else { Self::OnFaces };
         }
         let mut touch = Self::InFront;
         for contact in ends.iter().filter(|contact| contact.status != CandidateStatus::Culled) {
@@ -73,6 +85,17 @@ impl Touch {
         }
         touch
     }
+}
+
+/// Returns true if one plane holds the lowest and the highest place of a disc.
+fn hold_a_disc(ends: &[ContactCandidate]) -> bool {
+    /// Difference of two unit normals from rounding alone: a disc that is level up to another has other places.
+    const SAME: f64 = 16.0 * f64::EPSILON;
+    let is_highest_of = |low: &ContactCandidate, other: &ContactCandidate| {
+        other.key.end == low.key.end + 2 && (low.normal_b - other.normal_b).norm() <= SAME
+    };
+    let on_faces = || ends.iter().filter(|contact| contact.takes_part() && contact.feature.is_face());
+    on_faces().any(|low| on_faces().any(|other| is_highest_of(low, other)))
 }
 
 /// Assigns the weights of the contacts of a body with one surface of triangles. `ends` have the weights of each end for
@@ -109,12 +132,13 @@ pub(super) fn share(
             let is_held = ends.iter().any(ContactCandidate::takes_part);
             let on_one = bar.one_stand(&context.body_b.triangles, frustum);
             match on_one.filter(|(stand, item)| is_before(context, frustum, (stand, *item), is_held)) {
+                Some((stand, _)) if touch == Touch::OnFaces && !stand.is_sunk() => return Ok(false),
                 Some((stand, _)) if in_front.is_ok() && stand.lies() && bar.keep_on(&stand) => {}
                 Some(on_one) => {
                     write_stand(frustum, on_one, (ends, middle), (&any, added));
                     return Ok(true);
                 }
-                None if in_front.is_err() || touch == Touch::Behind => return Ok(false),
+                None if in_front.is_err() || touch != Touch::InFront => return Ok(false),
                 None => {}
             }
         }
@@ -402,7 +426,7 @@ impl Bar<'_> {
     fn one_stand(&self, set: &TriangleSet, frustum: &Frustum) -> Option<(Stand, Item)> {
         /// Planes that are tried, from that of the least energy.
         const TRIES: usize = 64;
-        let slack = BEHIND_SLACK * self.body.around().radius;
+        let slack = FLAT_SLACK * self.body.around().radius;
         let is_behind = |stand: &Stand, item: &Item| {
             let is_behind = |corner: Vec3| stand.normal_b.dot(&(corner - stand.point_b)) <= slack;
             set.corners(item.element).into_iter().all(is_behind)

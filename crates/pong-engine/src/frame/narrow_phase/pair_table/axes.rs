@@ -233,7 +233,8 @@ fn push_sunk_side(
 }
 
 /// Adds the contacts of a cylinder or a cone with a triangle: those of its end discs, and those of the convex and
-/// free edges that its side crosses. An edge beside the axis that the side does not cross gives a `StandIn`.
+/// free edges that its side crosses. An edge beside the axis that the side does not cross gives a `StandIn`, as does the
+/// face under the middle of a disc that stands on it.
 pub(super) fn frustum_triangle(
     pair: &ElementPair<'_>,
     a: &TransformedPrimitive,
@@ -255,6 +256,9 @@ pub(super) fn frustum_triangle(
         });
         if let Some(highest) = disc.highest_on_triangle(set, triangle, thickness) {
             on_triangle(pair, &center(end + 2), highest, found);
+        }
+        if let Some(middle) = disc.middle_on_triangle(set, triangle, thickness) {
+            pair.between(BETWEEN_DISCS, &middle, CandidateStatus::StandIn, found);
         }
     }
     let around = Capsule { ends: frustum.ends, radius: frustum.radii[0].max(frustum.radii[1]) };
