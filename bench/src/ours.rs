@@ -565,7 +565,7 @@ fn deepest_end<const N: usize>(found: [Option<EndContact>; N]) -> Option<Interfe
 }
 
 fn deepest_in_bore(found: EndsInBore) -> Option<Interference> {
-    deepest(found.into_iter().flatten())
+    deepest(found.into_iter().flatten().map(|end| end.map(|contact| contact.interference)))
 }
 
 /// The last contact of a test that may emit several.
