@@ -137,42 +137,31 @@ impl EndDisc<'_> {
         });
     }
 
-    /// Returns the contact of the highest point of the rim with a triangle below whose plane it lies. The centre is then
-    /// behind the triangle too, by less than `thickness`, m.
-    pub fn highest_on_triangle(
+    /// Returns the contacts of the highest point of the rim and of the middle of the disc with a triangle below whose plane
+    /// all of the rim lies, the middle by less than `thickness`, m. Each has to be over the triangle, the middle but for
+    /// little.
+    pub fn below_triangle(
         &self,
         set: &TriangleSet,
         triangle: u32,
         thickness: f64,
-    ) -> Option<TriangleContact> {
-        let view = TriangleView::new(set, triangle);
-        let highest = self.highest_below(&view, thickness)?;
-        let foot = highest.deepest_b + view.normal * highest.depth;
-        is_over(set, &view, (&foot, 0.0))
-            .then_some(TriangleContact { interference: highest, standing: Standing::Behind })
-    }
-
-    /// Returns the contact of the middle of the disc with a triangle that it is over, but for little, if all of the rim is
-    /// below the plane of the triangle, and the middle by less than `thickness`, m.
-    pub fn middle_on_triangle(
-        &self,
-        set: &TriangleSet,
-        triangle: u32,
-        thickness: f64,
-    ) -> Option<Interference> {
-        /// Distance over an edge, relative to the radius: in a fold that is flat but for rounding no triangle is over
-        /// a place below the line of both.
+    ) -> (Option<TriangleContact>, Option<Interference>) {
+        /// Distance of the middle over an edge, relative to the radius: in a fold that is flat but for rounding no
+        /// triangle is over a place below the line of both.
         const SLACK: f64 = 1e-4;
         let view = TriangleView::new(set, triangle);
-        let highest = self.highest_below(&view, thickness)?;
+        let Some(highest) = self.highest_below(&view, thickness) else { return (None, None) };
         let deepest_b = self.frustum.ends[self.end];
-        let depth = -view.height(&deepest_b);
-        let foot = deepest_b + view.normal * depth;
-        is_over(set, &view, (&foot, SLACK * self.radius())).then_some(Interference {
-            depth,
-            deepest_b,
-            ..highest
-        })
+        let middle = Interference { depth: -view.height(&deepest_b), deepest_b, ..highest };
+        let is_over = |contact: &Interference, slack: f64| {
+            let foot = contact.deepest_b + view.normal * contact.depth;
+            is_over(set, &view, (&foot, slack))
+        };
+        (
+            is_over(&highest, 0.0)
+                .then_some(TriangleContact { interference: highest, standing: Standing::Behind }),
+            is_over(&middle, SLACK * self.radius()).then_some(middle),
+        )
     }
 
     /// Returns the contact of the highest point of the rim with the plane of a triangle below which it lies. The centre is

@@ -195,6 +195,22 @@ fn depths_of_rods_are_found_by_a_search_around_circles() {
     assert!(rims > 500 && mouths > 300, "{rims} {mouths}");
 }
 
+/// The power of the wrench of `contacts` on a rod that begins to move at random, per m/s and rad/s, and the stored energy
+/// after a time, s.
+fn set_in_motion<'a>(
+    random: &mut Random,
+    (rod, bore): (&'a Rod, &'a Bore),
+    contacts: &EndsInBore,
+) -> (f64, impl Fn(f64) -> f64 + 'a) {
+    let (velocity, spin, about) = (random.direction(), random.direction(), rod.ends[0]);
+    let (force, moment) = wrench(contacts, &about);
+    let moved = move |time: f64| {
+        let turn = Quat::from_scaled_axis(spin * time);
+        energy(&rod.moved(|p| about + turn * (p - about) + velocity * time).touch(bore))
+    };
+    (force.dot(&velocity) + moment.dot(&spin), moved)
+}
+
 /// The wrench is minus the derivative of the stored energy along any motion: frictionless closed paths do no
 /// work.
 #[test]
@@ -209,13 +225,7 @@ fn wrenches_of_rods_derive_from_the_stored_energy() {
         if energy(&contacts) < 1e-6 {
             continue;
         }
-        let (velocity, spin, about) = (random.direction(), random.direction(), rod.ends[0]);
-        let moved = |time: f64| {
-            let turn = Quat::from_scaled_axis(spin * time);
-            energy(&rod.moved(|p| about + turn * (p - about) + velocity * time).touch(&bore))
-        };
-        let (force, moment) = wrench(&contacts, &about);
-        let power = force.dot(&velocity) + moment.dot(&spin);
+        let (power, moved) = set_in_motion(&mut random, (&rod, &bore), &contacts);
         compared += 1;
         both += usize::from(contacts.iter().any(|end| end[0].is_some() && end[1].is_some()));
         let halves = [moved(STEP) - moved(0.0), moved(0.0) - moved(-STEP)].map(|change| change / STEP);
@@ -338,13 +348,7 @@ fn wrenches_of_short_pins_derive_from_the_stored_energy() {
             continue;
         }
         let step = 1e-3 * most;
-        let (velocity, spin, about) = (random.direction(), random.direction(), rod.ends[0]);
-        let moved = |time: f64| {
-            let turn = Quat::from_scaled_axis(spin * time);
-            energy(&rod.moved(|p| about + turn * (p - about) + velocity * time).touch(&bore))
-        };
-        let (force, moment) = wrench(&contacts, &about);
-        let power = force.dot(&velocity) + moment.dot(&spin);
+        let (power, moved) = set_in_motion(&mut random, (&rod, &bore), &contacts);
         let slope = |step: f64| (moved(step) - moved(-step)) / (2.0 * step);
         let (near, nearer) = (slope(step), slope(0.5 * step));
         compared += 1;

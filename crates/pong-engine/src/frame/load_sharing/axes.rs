@@ -28,8 +28,8 @@ const APART_COSINE: f64 = -1e-14;
 
 /// Distance, relative to the radius, by which a corner may be in front of a plane that has the surface behind it.
 const BEHIND_SLACK: f64 = 1e-9;
-/// Such a distance for the plane on which a cylinder or a cone stands. Vertices in single precision, 10 m from the origin, are off
-/// by some 4e-7 m, and planes of small triangles by ten times that at the far rim.
+/// Such a distance for the plane on which a cylinder or a cone stands. Vertices in single precision, 10 m from the origin,
+/// are off by some 4e-7 m, and planes of small triangles by ten times that at the far rim.
 const FLAT_SLACK: f64 = 1e-4;
 /// Difference of two unit normals up to which two faces count as one plane.
 const PLANE_SLACK: f64 = 1e-7;
@@ -62,12 +62,12 @@ impl Touch {
     /// each end yields for itself. They do not where an end came from behind, or where the ball of a capsule is behind the
     /// surface.
     pub fn new(ends: &[ContactCandidate], middle: &[ContactCandidate], is_disc: bool) -> Self {
-        let mut beside = middle.iter().filter(|contact| contact.takes_part());
+        let beside = || middle.iter().filter(|contact| contact.takes_part());
         let on_triangles = middle.first().is_some_and(|contact| contact.kind_b == PrimitiveKind::Triangle);
-        if !on_triangles || beside.clone().next().is_none() {
+        if !on_triangles || beside().next().is_none() {
             return Self::Apart;
         }
-        if beside.all(|contact| contact.feature.is_face()) {
+        if beside().all(|contact| contact.feature.is_face()) {
             let is_wrong = ends.iter().any(|contact| contact.role == ContactRole::WrongSide);
             return if is_wrong || hold_a_disc(ends) { Self::Apart } else { Self::OnFaces };
         }

@@ -254,10 +254,11 @@ pub(super) fn frustum_triangle(
         disc.on_triangle(set, triangle, thickness, &mut |contact| {
             on_triangle(pair, &center(end), contact, found);
         });
-        if let Some(highest) = disc.highest_on_triangle(set, triangle, thickness) {
+        let (highest, middle) = disc.below_triangle(set, triangle, thickness);
+        if let Some(highest) = highest {
             on_triangle(pair, &center(end + 2), highest, found);
         }
-        if let Some(middle) = disc.middle_on_triangle(set, triangle, thickness) {
+        if let Some(middle) = middle {
             pair.between(BETWEEN_DISCS, &middle, CandidateStatus::StandIn, found);
         }
     }
