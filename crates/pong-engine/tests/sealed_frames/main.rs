@@ -131,7 +131,8 @@ fn no_frame_with_workers_allocates() {
             ..WorkerSettings::default()
         };
         let config = Config { ledger: true, workers: Some(settings), ..Config::default() };
-        let (bench, calls) = run(config, frames() / 10);
+        // Fewer have no frame without a contact.
+        let (bench, calls) = run(config, (frames() / 10).max(1000));
         assert_eq!(calls, []);
         assert_worth_counting(&bench.seen);
         let helpers = helpers();
