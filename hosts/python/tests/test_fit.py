@@ -31,7 +31,7 @@ def test_a_value_is_found_from_arrays_and_from_an_npz(tmp_path):
     noise = {"position": 1e-4, "rotation": 1e-3}
     found = pong.fit(path, data, {name: (1e3, 1e5)}, noise=noise, tries=2, output=tmp_path / "out")
     assert found.parameters[0].value == pytest.approx(truth, rel=1e-3)
-    assert (tmp_path / "out" / "fit.md").read_text() == found.page
+    assert (tmp_path / "out" / "fit.md").read_text(encoding="utf-8") == found.page
     np.savez(tmp_path / "data.npz", **data)
     again = pong.fit(path, tmp_path / "data.npz", {name: (1e3, 1e5)}, noise=noise, tries=2, threads=1)
     assert again.page == found.page

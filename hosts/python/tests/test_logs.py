@@ -41,7 +41,7 @@ def logged(folder, **options):
 
 def test_a_log_of_a_program_can_be_replayed(tmp_path):
     logged(tmp_path / "log")
-    done = subprocess.run([PONG, "replay", str(tmp_path / "log")], capture_output=True, text=True)
+    done = subprocess.run([PONG, "replay", str(tmp_path / "log")], capture_output=True, encoding="utf-8")
     assert done.returncode == 0, done.stdout + done.stderr
     log = pong.Log(tmp_path / "log")
     assert {event["event"] for event in log.events} >= {"pair", "surface", "restore", "clear_contact_history", "commit"}
@@ -55,7 +55,7 @@ def test_preloaded_friction_is_in_the_log(tmp_path):
     w.step()
     w.log_frame(0.0)
     w.stop_log()
-    done = subprocess.run([PONG, "replay", str(tmp_path / "log")], capture_output=True, text=True)
+    done = subprocess.run([PONG, "replay", str(tmp_path / "log")], capture_output=True, encoding="utf-8")
     assert done.returncode == 0, done.stdout + done.stderr
     assert pong.Log(tmp_path / "log").wrenches["force"][0, 0, 0] == pytest.approx(3.0, rel=1e-9)
 

@@ -74,7 +74,7 @@ def test_surfaces_and_gravity_can_be_changed(tmp_path):
 
 
 def run_cli(*arguments):
-    done = subprocess.run([PONG, *map(str, arguments)], capture_output=True, text=True)
+    done = subprocess.run([PONG, *map(str, arguments)], capture_output=True, encoding="utf-8")
     assert done.returncode == 0, done.stderr
     return done.stdout
 
@@ -113,7 +113,7 @@ def same_tables(folder):
 def test_what_a_run_warns_of_is_what_the_program_warns_of(tmp_path):
     scene = scene_folder(tmp_path, SCENE.replace("step: 1e-4", "step: 5e-2"))
     simulation = pong.Scene.load(scene).build()
-    told = subprocess.run([PONG, "run", "--quiet", str(scene)], capture_output=True, text=True).stderr
+    told = subprocess.run([PONG, "run", "--quiet", str(scene)], capture_output=True, encoding="utf-8").stderr
     assert simulation.warnings, "the step is too long for the stiffness"
     for warning in simulation.warnings:
         assert warning in told

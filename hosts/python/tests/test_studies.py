@@ -27,7 +27,7 @@ def resting(folder):
 
 
 def program(*arguments):
-    return subprocess.run([PONG, *map(str, arguments)], capture_output=True, text=True)
+    return subprocess.run([PONG, *map(str, arguments)], capture_output=True, encoding="utf-8")
 
 
 def test_a_log_agrees_until_a_bit_of_it_is_turned(tmp_path):
@@ -64,7 +64,7 @@ def test_the_errors_of_steps_are_those_of_the_program(tmp_path):
     scene = resting(tmp_path)
     (tmp_path / "ball.ron").write_text(BALL.replace("damping: 30", "damping: 0"))
     found = pong.trade(scene, tmp_path / "out", within=0.05, of=["peak"], levers=["step"], rounds=1)
-    assert found.converged and found.name == "drop" and found.page == (tmp_path / "out/trade.md").read_text()
+    assert found.converged and found.name == "drop" and found.page == (tmp_path / "out/trade.md").read_text(encoding="utf-8")
     errors = [level.errors["peak"] for level in found.levels]
     assert len(errors) >= 2 and all(level.error == level.errors["peak"] for level in found.levels)
     assert all(coarse > fine for coarse, fine in zip(errors, errors[1:])), errors
