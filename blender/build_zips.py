@@ -79,9 +79,14 @@ def built_wheel() -> Path:
     return found[0]
 
 
+def name_in_zip(wheel: Path) -> str:
+    """File name of a wheel in the zips. Blender 4.2.0 to 4.3 takes `cp310-abi3` for Python 3.10 alone, and has 3.11."""
+    return wheel.name.replace("-cp310-abi3-", "-cp310.cp311-abi3-")
+
+
 def manifest_with(manifest: str, wheels: dict[str, Path]) -> bytes:
     """A manifest with the wheels added before its first table."""
-    names = ", ".join(f'"./wheels/{wheel.name}"' for wheel in wheels.values())
+    names = ", ".join(f'"./wheels/{name_in_zip(wheel)}"' for wheel in wheels.values())
     platforms = ", ".join(f'"{platform}"' for platform in wheels)
     lines = f"platforms = [{platforms}]\nwheels = [{names}]\n\n"
     head, table, tail = manifest.replace("\r\n", "\n").partition("\n[permissions]")
@@ -99,7 +104,7 @@ def build(name: str, folder: Path, wheels: dict[str, Path]) -> Path:
     target = folder / f"{manifest['id']}-{manifest['version']}.zip"
     contents = {inside: path.read_bytes().replace(b"\r\n", b"\n") for inside, path in files_of(source).items()}
     contents["blender_manifest.toml"] = manifest_with(written, wheels)
-    contents |= {f"wheels/{wheel.name}": wheel.read_bytes() for wheel in wheels.values()}
+    contents |= {f"wheels/{name_in_zip(wheel)}": wheel.read_bytes() for wheel in wheels.values()}
     with zipfile.ZipFile(target, "w") as out:
         for inside, content in sorted(contents.items()):
             entry = zipfile.ZipInfo(inside, DATE)
