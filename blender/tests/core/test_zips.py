@@ -48,12 +48,11 @@ class Zips(unittest.TestCase):
         with zipfile.ZipFile(zips[0]) as content:
             manifest = tomllib.loads(content.read("blender_manifest.toml").decode())
             self.assertEqual(set(manifest["platforms"]), set(WHEELS.values()))
-            self.assertEqual(len(manifest["wheels"]), len(wheels))
+            # Blender 4.2.0 to 4.3 looks for its Python, 3.11, among the tags, and does not count upwards from 3.10.
+            expected = {path.name.replace("-cp310-", "-cp310.cp311-"): path for path in wheels}
+            self.assertEqual({Path(name).name for name in manifest["wheels"]}, set(expected))
             for name in manifest["wheels"]:
-                # Blender 4.2.0 to 4.3 looks for its Python, 3.11, among the tags, and does not count upwards from 3.10.
-                given, python = Path(name).name, Path(name).name.split("-")[2]
-                self.assertEqual(python.split("."), ["cp310", "cp311"])
-                self.assertEqual(content.read(name.removeprefix("./")), (self.folder / given.replace(python, "cp310")).read_bytes())
+                self.assertEqual(content.read(name.removeprefix("./")), expected[Path(name).name].read_bytes())
 
     def test_what_does_not_fit_is_refused_with_cause_and_cure(self):
         linux = wheel(self.folder, "manylinux_2_17_x86_64.manylinux2014_x86_64")
